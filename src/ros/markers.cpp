@@ -1,3 +1,4 @@
+/// Markers of parts, bin and contacts. RViz reads model files by their address; of CAD files it gets the triangles.
 #include "markers.hpp"
 
 #include <algorithm>
@@ -24,6 +25,12 @@ Marker marker(const std::string& name, int id, const Pose& pose, const Frames& f
   m.action = Marker::ADD;
   m.pose = pose_message(pose);
   return m;
+}
+
+geometry_msgs::Point point_message(const Vec3& v) {
+  geometry_msgs::Point point;
+  point.x = v.x(), point.y = v.y(), point.z = v.z();
+  return point;
 }
 
 /// For RViz, which reads no CAD files: the triangles themselves.
@@ -60,12 +67,6 @@ std::array<Box, 5> walls(const Bin& bin) {
   return {Box{{0, 0, -0.5 * t}, {in.x() + 2 * t, in.y() + 2 * t, t}}, Box{{-x, 0, z}, {t, in.y(), in.z()}},
           Box{{x, 0, z}, {t, in.y(), in.z()}}, Box{{0, -y, z}, {in.x() + 2 * t, t, in.z()}},
           Box{{0, y, z}, {in.x() + 2 * t, t, in.z()}}};
-}
-
-geometry_msgs::Point point_message(const Vec3& v) {
-  geometry_msgs::Point point;
-  point.x = v.x(), point.y = v.y(), point.z = v.z();
-  return point;
 }
 
 /// The unit of what is drawn of contacts.

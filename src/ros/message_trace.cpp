@@ -13,7 +13,7 @@ namespace {
 /// A bag that is written front to back, whose errors name it.
 class BagRecording {
  public:
-  explicit BagRecording(std::string path) : path_(std::move(path)) {
+  explicit BagRecording(const std::string& path) : path_(path) {
     SceneBag::unharmed(path_, [&] { bag_ = std::make_unique<SceneBag>(path_, ""); });
   }
   template <class Message>
@@ -33,8 +33,9 @@ class BagRecording {
 template <class Recording>
 class MessageTrace final : public Trace {
  public:
-  MessageTrace(const Request& request, Recording recording)
-      : recording_(std::move(recording)), begin_(bag_stamp(request.first)) {
+  template <class... Arguments>
+  explicit MessageTrace(const Request& request, const Arguments&... of_recording)
+      : recording_(of_recording...), begin_(bag_stamp(request.first)) {
     scene_.sensors = request.sensors;
     write(topic::tf_static, begin_, static_transforms(scene_, frames_, begin_), Latch::yes);
   }
@@ -68,8 +69,8 @@ class MessageTrace final : public Trace {
 
 std::unique_ptr<Trace> message_trace(const std::string& path, const Request& request, McapProfile profile) {
   if (std::filesystem::path(path).extension() == ".mcap")
-    return std::make_unique<MessageTrace<McapRecording>>(request, McapRecording(path, profile));
-  return std::make_unique<MessageTrace<BagRecording>>(request, BagRecording(path));
+    return std::make_unique<MessageTrace<McapRecording>>(request, path, profile);
+  return std::make_unique<MessageTrace<BagRecording>>(request, path);
 }
 
 }  // namespace bin_scenes

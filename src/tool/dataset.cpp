@@ -48,7 +48,7 @@ class Teller {
     std::fprintf(stderr, "bin_scenes: warning: %s\n", text.c_str());
   }
 
-  void show(const RunProgress& p, bool last = false) {
+  void report(const RunProgress& p, bool last = false) {
     if (!json_) {
       if (!last) show(p);
       return;
@@ -100,9 +100,9 @@ int dataset(const DatasetOptions& options) {
   {
     Teller teller(options.json_progress);
     run.warn = [&](const std::string& text) { teller.warn(text); };
-    run.progress = [&](const RunProgress& progress) { teller.show(progress); };
+    run.progress = [&](const RunProgress& progress) { teller.report(progress); };
     end = run_dataset(plan, options.out, run);
-    teller.show(end, true);
+    teller.report(end, true);
   }
   if (!options.json_progress)
     std::printf("%zu scenes in %s; %zu attempts set apart\n", end.accepted, options.out.c_str(), end.rejected);

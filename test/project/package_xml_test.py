@@ -70,7 +70,7 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "cad", "python", "run", "report", "tests", "dataset_tests", "bench", "package", "fuzz", "docs",
+                         {"build", "libraries", "pcd", "cad", "python", "run", "report", "realism", "tests", "dataset_tests", "bench", "package", "fuzz", "docs",
                           "readers", "ros",
                           "ros_pcl", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
@@ -79,7 +79,7 @@ class PackageXml(unittest.TestCase):
     def test_what_is_installed_has_a_key(self):
         provided = {p for key in self.keys for p in DEBIAN.get(key, [key])}
         missing = []
-        for name in ("build", "libraries", "pcd", "python", "run", "report", "tests", "dataset_tests", "docs", "ros",
+        for name in ("build", "libraries", "pcd", "python", "run", "report", "realism", "tests", "dataset_tests", "docs", "ros",
                      "ros_pcl", "ros_tests"):
             for package in self.arrays[name]:
                 known = package in provided or name.startswith("ros") and ros_package(package) in self.keys
@@ -88,7 +88,7 @@ class PackageXml(unittest.TestCase):
         self.assertEqual(missing, [], "package.xml lacks keys for them")
 
     def test_every_key_is_installed(self):
-        packages = {p for name in ("libraries", "pcd", "python", "run", "tests", "ros", "ros_pcl", "ros_tests") for p in self.arrays[name]}
+        packages = {p for name in ("libraries", "pcd", "python", "run", "realism", "tests", "ros", "ros_pcl", "ros_tests") for p in self.arrays[name]}
         ros = {ros_package(p) for p in self.arrays["ros"] + self.arrays["ros_pcl"] + self.arrays["ros_tests"]}
         unknown = [k for k in sorted(self.keys)
                    if k not in ros and not packages.issuperset(DEBIAN.get(k, [k]))]

@@ -161,7 +161,7 @@ TEST(SpherePhases, ForgottenForcesAreFoundByMoreSweeps) {
     EXPECT_TRUE(sphere::take_phase(world, phases::probe)) << "forces are forgotten each time";
     EXPECT_TRUE(world.forgets);
     EXPECT_EQ(world.cold_steps, world.settings.cold_steps);
-    EXPECT_EQ(world.grip, static_cast<float>(phases::probe.friction));
+    EXPECT_EQ(world.friction_share, static_cast<float>(phases::probe.friction));
     EXPECT_TRUE(sphere::take_phase(world, phases::verify));
     EXPECT_TRUE(world.forgets);
     EXPECT_EQ(world.cold_steps, world.settings.pressed_cold_steps);
