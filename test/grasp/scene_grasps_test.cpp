@@ -265,8 +265,11 @@ TEST(SceneGrasps, LiftsLeanAwayFromWhatIsInTheWay) {
   EXPECT_LE(tilt, 0.9 + 1e-9);
   EXPECT_NEAR(pick.lift.z(), 0.1, 1e-9);  // out of the bin
   EXPECT_GT(free_of(found, 0), 0u);
-  for (const SceneGrasp& grasp : found.grasps)
-    if (grasp.part == 0 && grasp.free()) EXPECT_LT(grasp.pose.position.x(), 0.01);
+  for (const SceneGrasp& grasp : found.grasps) {
+    if (grasp.part == 0 && grasp.free()) {
+      EXPECT_LT(grasp.pose.position.x(), 0.01);
+    }
+  }
 }
 
 TEST(SceneGrasps, ThePalmOfABentToolLeans) {

@@ -24,7 +24,7 @@ class EvenLamp : public Lamp {
     }
   }
   Vec3 slope(const Vec3&, double) const override { return Vec3::Zero(); }
-  Vec3 way(const Vec3&) const override { return Vec3::Zero(); }
+  Vec3 direction_at(const Vec3&) const override { return Vec3::Zero(); }
 };
 
 /// A box seen from within.

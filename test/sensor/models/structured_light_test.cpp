@@ -352,7 +352,7 @@ TEST(StructuredLight, ABallOf100MillimetresHasItsRadius) {
       const BallFit ball = fit_ball(points);
       const double bound = noise ? 5e-5 : 1e-5;
       EXPECT_NEAR(ball.radius, 0.1, bound) << noise << decoded;
-      EXPECT_LT((ball.middle - Vec3(0, 0, 1.05)).norm(), 5.0 * bound) << noise << decoded;
+      EXPECT_LT((ball.center - Vec3(0, 0, 1.05)).norm(), 5.0 * bound) << noise << decoded;
     }
   }
 }
