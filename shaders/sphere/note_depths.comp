@@ -18,6 +18,7 @@ layout(std430, binding = BIND_WORST) buffer Worst { SphereWorst worst[]; };
 #include "shared/language.h"
 #include "shared/rotation.h"
 #include "sphere/contact_row.h"
+#include "sphere/ordered.h"
 
 shared uint deepest;  // bits of a share of the diagonal; shares are not negative, so that bits are ordered as they are
 shared uint pair;     // lowest key of the manifolds that are as deep
@@ -31,11 +32,13 @@ struct Depth {
 };
 
 Depth depth_of(SphereWorld world, SphereOrdered m) {
-  float deep = 0.0, diagonal = bodies[m.a].material.w;
-  if (m.b != SPHERE_GROUND) diagonal = min(diagonal, bodies[m.b].material.w);
-  for (uint k = 0u; k < m.count; ++k)
-    deep = max(deep, -found_gap_at(SPHERE_ROW_PARTS * (world.rows.x + k * m.stride) + m.row, m.stride));
-  uint a = m.a - world.bodies.x, b = m.b == SPHERE_GROUND ? 0xffffu : m.b - world.bodies.x;
+  Members of = bodies_of(world, m.bodies);
+  float deep = 0.0, diagonal = bodies[of.a].material.w;
+  if (of.b != SPHERE_GROUND) diagonal = min(diagonal, bodies[of.b].material.w);
+  uint count = count_of(m.kind), stride = stride_of(m.kind);
+  for (uint k = 0u; k < count; ++k)
+    deep = max(deep, -found_gap_at(SPHERE_ROW_PARTS * (world.rows.x + k * stride) + m.row, stride));
+  uint a = of.a - world.bodies.x, b = of.b == SPHERE_GROUND ? 0xffffu : of.b - world.bodies.x;
   return Depth(deep, deep / diagonal, a << 16 | b);
 }
 

@@ -223,6 +223,7 @@ TEST_F(ConfigTest, EveryKeyOfTheTableIsInTheRequestOfTheTestAbove) {
     const bool excluded = entry.path == "bin.mesh" || entry.path == "bin.unit" || entry.path == "bin.pose" ||
                           entry.path == "bin.floor" || entry.path == "bin.none" || entry.path == "pour.scene" ||
                           entry.path == "rig" || name == "material" || name == "pose_of" ||
+                          entry.path.rfind("grippers[].finger_mesh", 0) == 0 ||
                           entry.path.rfind("sensors[].views", 0) == 0;
     EXPECT_TRUE(excluded || written.find(name + ":") != std::string::npos) << entry.path;
   }

@@ -164,7 +164,7 @@ TEST_F(Cad, WithoutProcTheTrueCauseIsTold) {
       load_mesh(path);
     } catch (const Error& error) {
       std::fprintf(stderr, "%s\n", error.what());
-      _exit(error.problem().find("by way of /proc, which is not mounted") == std::string::npos ? not_told : told);
+      _exit(error.problem().find("through /proc, which is not mounted") == std::string::npos ? not_told : told);
     }
     _exit(not_told);
   }
