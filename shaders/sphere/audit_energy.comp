@@ -32,7 +32,7 @@ shared float gain[SPHERE_MAX_BODIES];  // J; then as a share of m g d
 shared float before[SPHERE_MAX_BODIES], now[SPHERE_MAX_BODIES];  // m/s: of the fastest point then; then ratio
 shared uint label[SPHERE_MAX_BODIES];  // lowest body of the group
 shared uint changed[2];                // take turns
-shared uint begins, gained, faster, best_gain, best_ratio, gainer, thrown;
+shared uint begins, gained, faster;
 
 SphereWorld world;
 float gravity, seconds;
@@ -158,8 +158,6 @@ void compare_with_group(uint i, uint w) {
                     ? 0.0
                     : (now[i] - fall) / (max(group.y, fall) * (1.0 + group.z));
   now[i] = faster != 0u && ratio > max(audits[w].ratio, 1.0) ? ratio : 0.0;
-  if (gain[i] > 0.0) atomicMax(best_gain, floatBitsToUint(gain[i]));
-  if (now[i] > 0.0) atomicMax(best_ratio, floatBitsToUint(now[i]));
 }
 
 uint nearest_of_group(uint i) {
@@ -175,14 +173,27 @@ uint nearest_of_group(uint i) {
   return nearest;
 }
 
+// By one invocation: it is rare that anything gained. Of bodies that are equal the first counts.
 void keep_worst(uint w, uint observation) {
-  if (best_gain != 0u) {
-    audits[w].gain = uintBitsToFloat(best_gain);
+  float best_gain = 0.0, best_ratio = 0.0;
+  uint gainer = SPHERE_GROUND, thrown = SPHERE_GROUND;
+  for (uint i = 0u; i < world.bodies.y; ++i) {
+    if (gain[i] > best_gain) {
+      best_gain = gain[i];
+      gainer = i;
+    }
+    if (now[i] > best_ratio) {
+      best_ratio = now[i];
+      thrown = i;
+    }
+  }
+  if (best_gain > 0.0) {
+    audits[w].gain = best_gain;
     audits[w].gainer = gainer;
     audits[w].gain_observation = observation;
   }
-  if (best_ratio == 0u) return;
-  audits[w].ratio = uintBitsToFloat(best_ratio);
+  if (!(best_ratio > 0.0)) return;
+  audits[w].ratio = best_ratio;
   audits[w].thrown = thrown;
   audits[w].beside = nearest_of_group(thrown);
   audits[w].ratio_observation = observation;
@@ -199,8 +210,7 @@ void main() {
   bool driven = (ask.flags & SPHERE_DRIVEN) != 0u;
   if (thread == 0u) {
     begins = driven ? 1u : audits[w].begins;
-    gained = faster = best_gain = best_ratio = 0u;
-    gainer = thrown = SPHERE_GROUND;
+    gained = faster = 0u;
   }
   if (thread < 2u) changed[thread] = 0u;
   barrier();
@@ -223,11 +233,6 @@ void main() {
   FOR_OWN(i) if (label[i] == i) add_up_group(i);
   barrier();
   FOR_OWN(i) compare_with_group(i, w);
-  barrier();
-  FOR_OWN(i) {
-    if (gain[i] > 0.0 && floatBitsToUint(gain[i]) == best_gain) atomicMin(gainer, i);
-    if (now[i] > 0.0 && floatBitsToUint(now[i]) == best_ratio) atomicMin(thrown, i);
-  }
   barrier();
   if (thread == 0u) keep_worst(w, ask.observation);
 }

@@ -22,24 +22,28 @@ layout(std430, binding = BIND_WORST) buffer Worst { SphereWorst worst[]; };
 
 shared uint deepest;  // bits of a share of the diagonal; shares are not negative, so that bits are ordered as they are
 shared uint pair;     // lowest key of the manifolds that are as deep
-shared float depth;   // m, of that one
 
 const uint NO_PAIR = 0xffffffffu;
 
 struct Depth {
-  float depth, relative;  // m; share of the diagonal
-  uint key;               // both bodies, counted in the world
+  float relative;  // share of the diagonal
+  uint key;        // both bodies, counted in the world
 };
+
+// m; of the smaller of two bodies of all worlds.
+float diagonal_of(uint a, uint b) {
+  float own = bodies[a].material.w;
+  return b == SPHERE_GROUND ? own : min(own, bodies[b].material.w);
+}
 
 Depth depth_of(SphereWorld world, SphereOrdered m) {
   Members of = bodies_of(world, m.bodies);
-  float deep = 0.0, diagonal = bodies[of.a].material.w;
-  if (of.b != SPHERE_GROUND) diagonal = min(diagonal, bodies[of.b].material.w);
+  float deep = 0.0;
   uint count = count_of(m.kind), stride = stride_of(m.kind);
   for (uint k = 0u; k < count; ++k)
     deep = max(deep, -found_gap_at(SPHERE_ROW_PARTS * (world.rows.x + k * stride) + m.row, stride));
   uint a = of.a - world.bodies.x, b = of.b == SPHERE_GROUND ? 0xffffu : of.b - world.bodies.x;
-  return Depth(deep, deep / diagonal, a << 16 | b);
+  return Depth(deep / diagonal_of(of.a, of.b), a << 16 | b);
 }
 
 void main() {
@@ -51,7 +55,7 @@ void main() {
     pair = NO_PAIR;
   }
   barrier();
-  Depth own = Depth(0.0, 0.0, NO_PAIR);
+  Depth own = Depth(0.0, NO_PAIR);
   for (uint o = gl_LocalInvocationIndex; o < progress[w].ordered; o += SPHERE_WORLD_GROUP) {
     Depth next = depth_of(world, order[world.pairs.x + o]);
     if (next.relative > own.relative || next.relative == own.relative && next.key < own.key) own = next;
@@ -62,11 +66,12 @@ void main() {
   bool is_deepest = overlaps && floatBitsToUint(own.relative) == deepest;
   if (is_deepest) atomicMin(pair, own.key);
   barrier();
-  if (is_deepest && own.key == pair) depth = own.depth;
-  barrier();
   if (gl_LocalInvocationIndex != 0u) return;
   worst[w].ago += progress[w].time_step;
   if (uintBitsToFloat(deepest) <= worst[w].relative) return;
-  uint b = pair & 0xffffu;
-  worst[w] = SphereWorst(pair >> 16, b == 0xffffu ? SPHERE_GROUND : b, depth, uintBitsToFloat(deepest), 0.0, 0u, 0u, 0u);
+  float relative = uintBitsToFloat(deepest);
+  uint a = pair >> 16, b = pair & 0xffffu;
+  bool on_ground = b == 0xffffu;
+  float depth = relative * diagonal_of(world.bodies.x + a, on_ground ? SPHERE_GROUND : world.bodies.x + b);
+  worst[w] = SphereWorst(a, on_ground ? SPHERE_GROUND : b, depth, relative, 0.0, 0u, 0u, 0u);
 }
