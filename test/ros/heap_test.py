@@ -103,7 +103,7 @@ class HeapTest(NodeTestCase):
                  "the grasp is not free: " + told.reasons[blocked]),
                 ({"gripper": ""}, "there is a grasp, but no gripper"),
                 ({"ids": []}, "name one part"), ({"ids": [0, 1]}, "name one part"), ({"ids": [99]}, "no part 99"),
-                ({"lift_direction": Vector3(1, 0, 0)}, "straight up"), ({"lift_distance": 11}, "the distance is 11")):
+                ({"lift_direction": Vector3(1, 0, 0)}, "along the lift"), ({"lift_distance": 11}, "the distance is 11")):
             response = self.doors.pick(**dict(best, **change))
             self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.INPUT), words)
             self.assertIn(words, response.message)

@@ -1,3 +1,4 @@
+/// How much more than the default a heap asks of the solver: by its layers, the thinnest parts and the ratio of masses.
 #include "solver/sphere/effort.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

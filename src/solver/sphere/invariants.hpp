@@ -40,13 +40,6 @@ inline bool colors_share_no_body(const World& world) {
   return true;
 }
 
-/// What sleeps has no velocity.
-inline bool sleeping_bodies_stand(const World& world) {
-  return each_is(world.bodies, [](const Body& b) {
-    return !b.present || !b.asleep || b.inverse_mass == 0 || (b.v.isZero() && b.w.isZero());
-  });
-}
-
 /// Where bodies have poses at all.
 inline bool normals_are_unit(const World& world) {
   return each_is(world.manifolds, [](const Manifold& m) {

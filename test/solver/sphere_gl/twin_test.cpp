@@ -259,7 +259,7 @@ TEST_F(SphereGl, ManifoldsKeepTheirColors) {
     world = downloaded(batch, slot, world);
   }
   EXPECT_GT(kept, 1000u);
-  EXPECT_LT(batch.progress(slot).colorings, 20u);
+  EXPECT_LT(batch.progress(slot).colorings, 30u) << "of 60 steps";
 }
 
 TEST_P(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
@@ -311,7 +311,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     Capacity capacity = GetParam().capacity;
     capacity.rows = 32;  // the step is not repeated here
     Batch batch(capacity);
-    World world = heap_of(40, 2);             // of some others 24 soft sub-steps make more of rounding
+    World world = heap_of(40, 3);             // of some others 24 soft sub-steps make more of rounding
     for (int k = 0; k < 3; ++k) step(world);  // now contacts have forces
     world.settings.probe_slip = 0.5f * world.settings.time_step;  // sub-steps with friction and without
     const bool full = GetParam().name == "FullGroup", by_one = full || GetParam().name == "SoftwareGroup";

@@ -105,7 +105,6 @@ void update_sleep(World& world) {
     if (awake[i] && b.asleep && world.sleep == Sleep::by_touch) b.still = world.settings.time_step;
     b.asleep = !awake[i];
   }
-  BIN_SCENES_ASSERT(sleeping_bodies_stand(world));
 }
 
 std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body) {
