@@ -103,7 +103,7 @@ class Report(DataSetTest):
             if "data-drawn" in dom or "no 3-D view" in done.stderr:
                 break
         for gripper in ("cup_10mm", "two"):
-            row = '<td class="">%s</td><td class="n">%d</td>' % (gripper, sum(g["gripper"] == gripper for g in free))
+            row = '<b>%s</b>: %d of ' % (gripper, sum(g["gripper"] == gripper for g in free))
             self.assertTrue(row in dom, row)
         if "no 3-D view" not in done.stderr:
             self.assertTrue('data-grasps="%d"' % min(10, len(free)) in dom, "the grasps were not drawn")

@@ -36,9 +36,9 @@ std::string grasps_npy(const SceneGrasps& grasps, const Sensor& sensor, const Re
 /// The gripper's name as a part of file names: what is neither letter nor digit nor one of -._ becomes _.
 std::string file_name_of(const Gripper& gripper);
 
-/// <sensor>_layers.png, 8 bit: 0 bin and background, 1 parts that can be lifted, 2 partly covered, 3 covered by half of
-/// their footprint and more. <sensor>_suction_<gripper>.png for each cup, 16 bit: score * 65535 of the nearest cup that
-/// was tried within its radius, 0 where it is not free or none was tried. Of the true view of the camera.
+/// `SENSOR_layers.png`, 8 bit: 0 bin and background, 1 parts that can be lifted, 2 partly covered, 3 covered by half of
+/// their footprint and more. `SENSOR_suction_GRIPPER.png` for each cup, 16 bit: score * 65535 of the nearest cup that
+/// was tried within its radius, 0 where it is not free or none was tried. Both show the true view of the camera.
 void write_grasp_maps(const std::string& directory, const RangeImage& image, const SceneGrasps& grasps,
                       const Request& request);
 
