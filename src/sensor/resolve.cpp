@@ -212,7 +212,6 @@ void check_sensor(const Sensor& sensor, const LoadedRequest& loaded, const Aabb*
 
 Lens lens_of(const Sensor& sensor) {
   const std::vector<double>& k = sensor.k;
-  BIN_SCENES_ASSERT(k.size() == 9);
   Lens lens;
   lens.width = sensor.width;
   lens.height = sensor.height;

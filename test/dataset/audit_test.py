@@ -175,7 +175,7 @@ class Audit(DataSetTest):
         with_truth(lambda part: part.update(cam_t_m2c=[x / 1000 for x in part["cam_t_m2c"]]))
         self.refused("not all in millimetres", "object 1, 69.3 mm across")
         with_truth(lambda part: part.update(obj_id=7))
-        self.refused("does not tell of object 7")
+        self.refused("does not describe object 7")
         with_truth(lambda part: part.pop("cam_t_m2c"))
         self.refused("is not as BOP has it", "cam_t_m2c")
         (scene / "scene_gt.json").write_text("[")
