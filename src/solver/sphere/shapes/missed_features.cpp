@@ -1,3 +1,4 @@
+/// Nodes where the samples miss what sticks out: vertices, ridges of curved faces, and the tips where sharp edges meet.
 #include "solver/sphere/shapes/missed_features.hpp"
 
 #include "solver/sphere/shapes/point_grid.hpp"
