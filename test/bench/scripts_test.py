@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """bench/publish, bench/all and bench/compare_results on small results of their own."""
+import ast
 import os
 import pathlib
 import shutil
@@ -209,6 +210,20 @@ at rest: at_rest of scenes | | all
         outcome = self.figure()
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         self.assertTrue((self.root / "docs/lab/images/scenes.svg").read_text().rstrip().endswith("</svg>"))
+
+    def test_scripts_hand_over_all_that_a_table_of_results_needs(self):
+        """They do so after minutes of measuring."""
+        tree = ast.parse((ROOT / "bench/datasets/results.py").read_text())
+        needed = next(len(f.args.args) for f in tree.body if isinstance(f, ast.FunctionDef) and f.name == "put")
+        calls = 0
+        for path in (ROOT / "bench/datasets").iterdir():
+            if not path.is_file() or not path.read_bytes().startswith(b"#!/usr/bin/python3"):
+                continue
+            for node in ast.walk(ast.parse(path.read_text())):
+                if isinstance(node, ast.Call) and ast.unparse(node.func) == "results.put":
+                    self.assertEqual(len(node.args) + len(node.keywords), needed, path.name)
+                    calls += 1
+        self.assertGreaterEqual(calls, 4)
 
     def test_all_makes_everything_and_names_what_failed(self):
         shutil.copy(ROOT / "bench/all", self.root / "bench")
