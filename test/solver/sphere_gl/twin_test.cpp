@@ -311,8 +311,9 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     Capacity capacity = GetParam().capacity;
     capacity.rows = 32;  // the step is not repeated here
     Batch batch(capacity);
-    World world = heap_of(40, 3);             // of some others 24 soft sub-steps make more of rounding
-    for (int k = 0; k < 3; ++k) step(world);  // now contacts have forces
+    // Not seed 2: a decision of its press falls otherwise, here too, if velocities change by 1e-5 of themselves.
+    World world = heap_of(40, 3);
+    for (int k = 0; k < 3; ++k) step(world);                      // now contacts have forces
     world.settings.probe_slip = 0.5f * world.settings.time_step;  // sub-steps with friction and without
     const bool full = GetParam().name == "FullGroup", by_one = full || GetParam().name == "SoftwareGroup";
     const bool many =
