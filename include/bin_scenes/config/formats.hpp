@@ -1,4 +1,5 @@
-/// Settings of output formats in requests and plans, and what a format cannot represent.
+/// Settings of output formats that requests and plans have in common, and tests of what a format cannot represent. The
+/// files themselves are written by output/.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
@@ -9,33 +10,38 @@
 
 namespace bin_scenes {
 
-/// The layout of the images of a BOP scene (output/bop_layout.hpp).
+/// The layout of the images of a BOP scene. output/bop_layout.hpp derives the paths from it.
 struct BopLayout {
   enum class Kind {
-    classic,    ///< gray/, depth/, scene_gt.json: image n is that of sensor n
-    industrial  ///< gray_SENSOR/, depth_SENSOR/, scene_gt_SENSOR.json: image n is view n of every sensor
+    classic,    ///< folders gray/ and depth/ with scene_gt.json; image n belongs to sensor n
+    industrial  ///< folders gray_SENSOR/ and depth_SENSOR/ with scene_gt_SENSOR.json; image n is view n of every sensor
   };
   Kind kind = Kind::classic;
-  bool tif = false;  ///< industrial: images are .tif instead of .png
-  /// industrial: by name of a sensor, in order of the request: of rgb, gray and depth.
+  bool tif = false;  ///< industrial: images are .tif files instead of .png files
+  /// Industrial: for each sensor, by name and in the order of the request, its modalities: some of "rgb", "gray" and
+  /// "depth".
   std::vector<std::pair<std::string, std::vector<std::string>>> modalities;
-  std::string sensor, modality;  ///< industrial: what estimators are evaluated on
+  std::string sensor, modality;  ///< industrial: the sensor and the modality on which estimators are evaluated
 };
 
-/// The sensor that a view belongs to: itself, or the one whose `views` it was made from.
+/// Returns the name of the sensor to which a view belongs: the sensor itself, or the one whose key `views` it was made
+/// from.
 const std::string& sensor_of_view(const Sensor& sensor);
-/// Why BOP's files cannot hold what a sensor sees, since they describe it by a camera matrix alone; empty: they can.
+/// Returns the reason why BOP files cannot represent the images of a sensor, or "" if they can. BOP describes a sensor
+/// by a camera matrix alone.
 std::string bop_misfit(const Sensor& sensor);
+/// The remedy that accompanies the reason in error messages.
 extern const char* const bop_misfit_remedy;
-/// What BOP's files omit of the output of the sensors; empty if they omit nothing.
+/// Returns which information of the sensors the BOP files omit, or "" if they omit nothing.
 std::string bop_loss(const std::vector<Sensor>& sensors);
 
 enum class McapProfile {
   ros1,
   ros2
-};  ///< the ROS version whose messages an MCAP file contains; ros2: Humble and later
+};  ///< the ROS version whose messages an MCAP file contains; ros2 means Humble and later
 const char* name_of(McapProfile profile);
-/// Throws an input Error for an unknown name. @param where  the key or option that contains the name
+/// Returns the profile of that name. Throws an input Error for an unknown name. @param where  the key or option that
+/// contains the name
 McapProfile mcap_profile_of(const std::string& name, const std::string& where);
 
 }  // namespace bin_scenes

@@ -1,4 +1,6 @@
-/// Grippers by name: files of config/grippers with the keys of one item of a request's `grippers`.
+/// Presets of grippers. A preset is a file of config/grippers that contains the keys of one item of `grippers` in a
+/// request. A request names a preset with the key `preset`, and keys that are given beside it override those of the
+/// preset.
 #pragma once
 
 #include "bin_scenes/scene/gripper.hpp"
@@ -8,11 +10,13 @@
 
 namespace bin_scenes {
 
-/// Folder of the presets, beside that of the sensors'. Throws an environment Error.
+/// Returns the folder of the presets, which is beside the folder of the sensor presets. Throws an environment Error if
+/// there is none.
 std::string gripper_preset_directory();
-/// Names of all presets, sorted.
+/// Returns the names of all presets, sorted.
 std::vector<std::string> gripper_presets();
-/// The gripper of a preset. Throws an input Error that names the nearest one.
+/// Returns the gripper that a preset describes. Throws an input Error that suggests the nearest name if the preset does
+/// not exist.
 Gripper gripper_preset(const std::string& name);
 
 }  // namespace bin_scenes

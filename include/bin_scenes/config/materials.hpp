@@ -1,4 +1,6 @@
-/// Surfaces by name: files of config/materials with the keys of a request's `surface`.
+/// Materials: named optical surfaces. A material is a file of config/materials that contains the keys of `surface` in a
+/// request. A request names it with the key `material`, and keys that are given after it override those of the
+/// material.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
@@ -8,11 +10,13 @@
 
 namespace bin_scenes {
 
-/// Folder of the materials, beside that of the sensor presets. Throws an environment Error.
+/// Returns the folder of the materials, which is beside the folder of the sensor presets. Throws an environment Error
+/// if there is none.
 std::string material_directory();
-/// Names of all materials, sorted.
+/// Returns the names of all materials, sorted.
 std::vector<std::string> materials();
-/// The surface of a material. Throws an input Error that names the nearest one.
+/// Returns the surface that a material describes. Throws an input Error that suggests the nearest name if the material
+/// does not exist.
 Surface material(const std::string& name);
 
 }  // namespace bin_scenes

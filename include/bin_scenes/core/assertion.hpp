@@ -1,7 +1,8 @@
 /// BIN_SCENES_ASSERT(condition) states an invariant at the place where it holds. Every build contains the assertions,
-/// so that tests and users run the same code, but they are evaluated only if the environment variable
-/// BIN_SCENES_ASSERTIONS is set, as all tests set it. Otherwise an assertion costs one branch, and none stands in an
-/// inner loop. A violated condition is printed with file and line, and the process aborts.
+/// so that tests and users run the same code. They are evaluated only if the environment variable BIN_SCENES_ASSERTIONS
+/// is set, as all tests set it; otherwise an assertion costs one branch, and inner loops contain none. If a condition
+/// is violated, its text, file and line are printed, and the process aborts. Assertions detect mistakes in this
+/// library. Mistakes of users are reported with Error (core/error.hpp).
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -12,7 +13,9 @@
 
 namespace bin_scenes {
 
+/// Whether BIN_SCENES_ASSERTIONS was set when the process started.
 extern const bool assertions_on;
+/// Prints the condition, its place, and the scene and pair that are being worked on, and aborts.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line);
 
 #define BIN_SCENES_ASSERT(...)                                          \
@@ -21,16 +24,19 @@ extern const bool assertions_on;
       ::bin_scenes::assertion_failed(#__VA_ARGS__, __FILE__, __LINE__); \
   } while (false)
 
+/// Whether the length is 1. The squared length may differ from 1 by 1e-6.
 inline bool is_unit(const Quat& q) {
   return std::abs(q.squaredNorm() - 1.0) < 1e-6;
 }
 inline bool is_unit(const Vec3& v) {
   return std::abs(v.squaredNorm() - 1.0) < 1e-6;
 }
+/// Whether the pose is finite and its orientation has unit length.
 inline bool is_rigid(const Pose& pose) {
   return pose.finite() && is_unit(pose.orientation);
 }
 
+/// Whether the condition is true for every item.
 template <class Items, class Condition>
 bool each_is(const Items& items, Condition&& condition) {
   return std::all_of(std::begin(items), std::end(items), condition);

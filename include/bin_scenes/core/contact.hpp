@@ -1,4 +1,5 @@
-/// Conventions of contacts that all solvers and grasps share.
+/// Conventions of contacts that all solvers and the search for grasps share: how the friction of two surfaces is
+/// combined, and how the two tangents of a contact are chosen. The forces themselves are computed by each solver.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -7,13 +8,15 @@
 
 namespace bin_scenes {
 
-/// Coefficient of friction between two surfaces: the geometric mean of theirs.
+/// Returns the coefficient of friction between two surfaces: the geometric mean of their own coefficients (none may be
+/// negative).
 template <class Number>
 Number pair_friction(Number a, Number b) {
   return std::sqrt(a * b);
 }
 
-/// Two directions that are perpendicular to a normal and to each other; x, y, normal are right-handed.
+/// Two unit vectors that are perpendicular to a unit normal and to each other. The system (x, y, normal) is
+/// right-handed.
 struct Tangents {
   explicit Tangents(const Vec3& normal) : x(normal.unitOrthogonal()), y(normal.cross(x)) {}
   Vec3 x, y;

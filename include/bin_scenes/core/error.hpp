@@ -1,5 +1,6 @@
-/// The one exception of the library. Loading and set-up throw it; a running simulation sets flags in the report
-/// instead (scene/report.hpp); misuse of an interface asserts (core/assertion.hpp).
+/// The one exception type of the library. Loading and set-up throw it. A running simulation does not throw it for a
+/// poor result but sets flags in the report (scene/report.hpp), and misuse of an interface violates an assertion
+/// (core/assertion.hpp).
 #pragma once
 
 #include <stdexcept>
@@ -14,8 +15,9 @@ enum class ErrorKind {
   cancelled = 4,    ///< the caller asked to stop
 };
 
-/// One clear message: what is wrong, where it is (file, key, line), and how to correct it. what() is one printable line
-/// below 1 kB, whatever a file put into it; problem(), where() and remedy() are as they were given.
+/// An error with one clear message: what is wrong, where it is (file, key, line), and how to correct it. what() returns
+/// one printable line of less than 1 kB, whatever characters a file contained; problem(), where() and remedy() return
+/// the texts as they were given.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& what, const std::string& where, const std::string& remedy);
@@ -30,6 +32,7 @@ class Error : public std::runtime_error {
   std::string problem_, where_, remedy_;
 };
 
+/// Shorthands for the two kinds of error that most code throws.
 inline Error input_error(const std::string& what, const std::string& where, const std::string& remedy) {
   return {ErrorKind::input, what, where, remedy};
 }

@@ -1,4 +1,6 @@
-/// Time of each stage of a scene, and counts of work done and skipped. A stage has one name in file, shader and timer.
+/// Measured times of the stages of a scene, and counters of the work that was done or skipped. Solvers, the generator
+/// and the sensors each fill a Profile; their sum is in the report of a scene (`stages_ms`, `counters`). A stage has
+/// the same name in its source file, its shader and here.
 #pragma once
 
 #include <chrono>
@@ -8,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// Wall times (ms) and counters of one scene or batch, summed by name. Never influences a simulation.
+/// Wall-clock times (ms) and counters of one scene or batch, summed by name. They never influence a simulation.
 struct Profile {
   std::map<std::string, double> stages_ms;
   std::map<std::string, std::uint64_t> counters;
@@ -19,7 +21,7 @@ struct Profile {
     for (const auto& [name, ms] : other.stages_ms) stages_ms[name] += ms;
     for (const auto& [name, n] : other.counters) counters[name] += n;
   }
-  /// Difference to `before`, an earlier state of this profile.
+  /// Returns what was added since `before`, which is an earlier state of this profile.
   Profile since(const Profile& before) const {
     Profile later = *this;
     for (const auto& [name, ms] : before.stages_ms) later.stages_ms[name] -= ms;

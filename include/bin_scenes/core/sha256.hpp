@@ -1,4 +1,5 @@
-/// SHA-256 (FIPS 180-4): names contents in the part cache, in load reports and in scene.json.
+/// SHA-256 digests (FIPS 180-4). A digest identifies contents: of model files in load reports and in scene.json, of
+/// prepared shapes in the part cache, and of requests. It protects against mistakes, not against attackers.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +8,14 @@
 
 namespace bin_scenes {
 
-/// Digest of contents given in several pieces.
+/// The digest of contents that are given in several pieces.
 class Sha256 {
  public:
   Sha256();
   ~Sha256();
   Sha256& add(const void* data, std::size_t size);
-  /// Digest of all that was added, as 64 lower-case hex digits. Nothing can be added after it.
+  /// Returns the digest of all bytes added so far, as 64 lower-case hexadecimal digits. Nothing can be added
+  /// afterwards.
   std::string hex();
 
  private:
@@ -21,7 +23,7 @@ class Sha256 {
   std::unique_ptr<Context> context_;
 };
 
-/// Digest of `size` bytes as 64 lower-case hex digits.
+/// Returns the digest of `size` bytes, or of a text, as 64 lower-case hexadecimal digits.
 std::string sha256_hex(const void* data, std::size_t size);
 std::string sha256_hex(const std::string& text);
 

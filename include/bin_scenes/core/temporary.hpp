@@ -1,5 +1,6 @@
-/// Files and directories that appear complete or not at all. Once they have appeared they survive a loss of power, and
-/// leftovers of killed processes are removed by later ones.
+/// Files and directories that appear either complete or not at all. Output files, data sets and the disk cache are
+/// written in this manner. What has appeared survives a loss of power, and what a killed process left behind is removed
+/// by later processes.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +8,12 @@
 
 namespace bin_scenes {
 
-/// A file or directory that appears under its name only when it is complete: work on path(), then call commit(), which
-/// replaces an existing file of that name. Destroyed without commit(), it leaves nothing behind.
+/// A file or directory that appears under its name only when it is complete. The caller writes to path() and then calls
+/// commit(), which replaces an existing file of that name. If a Temporary is destroyed without commit(), nothing
+/// remains on the disk.
 ///
-/// Until then it is hidden beside its target as .NAME.tmp-PID-NUMBER@HOST, so that processes of several hosts can share
-/// a directory. remove_leftovers() removes what a killed process left.
+/// Before commit(), the file is hidden beside its target as .NAME.tmp-PID-NUMBER@HOST, so that processes of several
+/// hosts can share a directory. remove_leftovers() removes the files of killed processes.
 class Temporary {
  public:
   explicit Temporary(const std::string& target);
@@ -20,16 +22,18 @@ class Temporary {
   Temporary& operator=(const Temporary&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Contents are on the disk before the name changes, and the name before this returns; what lies in a directory that
-  /// is itself temporary gets there with it. Throws an environment Error.
+  /// Gives the file its final name. The contents are on the disk before the name changes, and the name is on the disk
+  /// before this function returns. Files within a directory that is itself a Temporary are written to the disk by the
+  /// commit() of that directory. Throws an environment Error.
   void commit();
 
  private:
   std::string target_, path_;
 };
 
-/// Removes temporaries in `directory` whose writer ran on this host and runs no more. Those of other hosts are not
-/// touched: this host cannot know whether they are still being written. Returns how many.
+/// Removes temporary files in `directory` whose writer was a process of this host that no longer runs. Files of other
+/// hosts are not touched, because this host cannot know whether they are still being written. Returns the number of
+/// files removed.
 std::size_t remove_leftovers(const std::string& directory);
 
 }  // namespace bin_scenes

@@ -1,4 +1,6 @@
-/// Vocabulary of the whole library: SI units (m, kg, s, rad), right-handed, z up.
+/// Basic types of the whole library: vectors, poses, velocities and boxes. All quantities are in SI units (m, kg, s,
+/// rad), in right-handed frames with z up, in double precision. A function that takes or returns a pose states between
+/// which frames it maps.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +13,7 @@ namespace bin_scenes {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-using Quat = Eigen::Quaterniond;  ///< unit length wherever it stands for an orientation
+using Quat = Eigen::Quaterniond;  ///< has unit length wherever it represents an orientation
 
 /// Rigid transform from a body's frame to its parent's frame: x_parent = orientation * x_body + position.
 struct Pose {
@@ -27,7 +29,7 @@ struct Pose {
     return {-(back * position), back};
   }
   bool finite() const { return position.allFinite() && orientation.coeffs().allFinite(); }
-  /// Pose of something that is not in the scene: not finite.
+  /// Returns the pose that stands for "not in the scene". Its position is NaN.
   static Pose none() { return {Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), Quat::Identity()}; }
 };
 
@@ -37,7 +39,7 @@ struct Twist {
   Vec3 angular = Vec3::Zero();
 };
 
-/// Axis-aligned box; empty (lower > upper) until the first extend().
+/// An axis-aligned box. It is empty (lower > upper) until it is first extended.
 struct Aabb {
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 upper = Vec3::Constant(-std::numeric_limits<double>::infinity());

@@ -1,5 +1,6 @@
-/// Storage buffers (GL_SHADER_STORAGE_BUFFER), which compute passes read and write.
-/// Contents are zero after (re)allocation. The driver's limit on the size of a block (128 MiB on llvmpipe) is checked.
+/// Storage buffers (GL_SHADER_STORAGE_BUFFER), which compute passes read and write. New contents are zero. The driver's
+/// limit on the size of a buffer (128 MiB on llvmpipe) is checked on allocation. All functions must be called on the
+/// thread whose context is current (gl/device.hpp).
 #pragma once
 
 #include "bin_scenes/core/assertion.hpp"
@@ -12,7 +13,7 @@
 
 namespace bin_scenes::gl {
 
-/// Untyped buffer on the device; sizes and offsets in bytes.
+/// A buffer on the device without an element type. Sizes and offsets are in bytes.
 class Storage {
  public:
   explicit Storage(std::string label = "buffer") : label_(std::move(label)) {}
@@ -20,20 +21,20 @@ class Storage {
   Storage(Storage&& other) noexcept;
   Storage& operator=(Storage&& other) noexcept;
 
-  /// New contents, all zero. Throws an environment Error if the driver's limit on a block is exceeded.
+  /// Replaces the contents by `bytes` zeros. Throws an environment Error if the driver's limit is exceeded.
   void allocate(std::size_t bytes);
-  /// Makes room for at least `bytes`, keeping the contents; new bytes are zero. Never shrinks.
+  /// Enlarges the buffer to at least `bytes` and keeps its contents; the new bytes are zero. It never shrinks.
   void grow(std::size_t bytes);
   void write(std::size_t offset, const void* data, std::size_t bytes);
-  /// Waits for the device. See ReadBack for a read that does not.
+  /// Copies a range to the host and waits for the device. ReadBack is a read that does not wait.
   void read(std::size_t offset, void* data, std::size_t bytes) const;
   void copy_from(const Storage& source, std::size_t source_offset, std::size_t offset, std::size_t bytes);
   void clear();
-  /// Sets `bytes` bytes from `offset` on (both multiples of 4) to copies of one word.
+  /// Fills `bytes` bytes from `offset` on with copies of one word; both are multiples of 4.
   void fill(std::uint32_t word, std::size_t offset, std::size_t bytes);
 
   void bind(unsigned binding) const;
-  /// A sub-range; `offset` a multiple of the driver's alignment (at most 256).
+  /// Binds a part of the buffer. `offset` is a multiple of the driver's alignment (at most 256).
   void bind(unsigned binding, std::size_t offset, std::size_t bytes) const;
   /// Binds the buffer as the source of indirect dispatches.
   void bind_indirect() const;
@@ -46,10 +47,10 @@ class Storage {
   std::string label_;
   unsigned id_ = 0;
   std::size_t bytes_ = 0;
-  bool filled_ = false;  ///< by fill(), and not written since
+  bool filled_ = false;  ///< filled by fill(), and not written since
 };
 
-/// `count` elements of one type whose layout in memory is std430's.
+/// A buffer of `count` elements of one type, whose layout in memory must be that of std430.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0, "a buffer holds whole words");
@@ -58,11 +59,11 @@ class Buffer {
   explicit Buffer(std::string label = "buffer") : storage_(std::move(label)) {}
 
   void resize(std::size_t count) { storage_.allocate(count * sizeof(T)), count_ = count; }
-  /// Keeps the contents.
+  /// Enlarges the buffer and keeps its contents.
   void grow(std::size_t count) {
     if (count > count_) storage_.grow(count * sizeof(T)), count_ = count;
   }
-  /// Replaces the contents; reallocates only if the number of elements exceeds the capacity.
+  /// Replaces the contents. It reallocates only if the number of elements exceeds the capacity.
   void upload(const std::vector<T>& values) {
     if (values.size() > count_) resize(values.size());
     upload(0, values.data(), values.size());
@@ -96,8 +97,8 @@ class Buffer {
   std::size_t count_ = 0;
 };
 
-/// Copies ranges of buffers to the host without stalling: request() starts the copy, ready() returns whether it has
-/// finished.
+/// Copies ranges of buffers to the host without waiting for the device: request() starts the copy, and ready() returns
+/// whether it has finished.
 class ReadBack {
  public:
   struct Range {
@@ -111,11 +112,11 @@ class ReadBack {
   ReadBack& operator=(const ReadBack&) = delete;
 
   void request(const Storage& source, std::size_t offset, std::size_t bytes) { request({{&source, offset, bytes}}); }
-  /// Ranges are stored one behind the other; adjacent ranges of one buffer are one copy.
+  /// Starts the copy. The ranges follow each other in the result; adjacent ranges of one buffer are one copy.
   void request(const std::vector<Range>& ranges);
   bool pending() const { return fence_ != nullptr; }
   bool ready() const;  ///< never waits
-  const void* wait();  ///< waits if necessary; valid until the next request()
+  const void* wait();  ///< waits if necessary; the data are valid until the next request()
   template <class T>
   const T& wait_as() {
     return *static_cast<const T*>(wait());

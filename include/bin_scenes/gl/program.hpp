@@ -1,9 +1,9 @@
-/// Programs from shader files, and the dispatch of compute passes.
+/// Programs that are compiled from shader files, and the dispatch of compute passes.
 ///
-/// A shader file contains no #version: the loader puts `#version 450 core` and the defines in
-/// front, and replaces `#include "shared/x.h"` (path below the shader directory, each file at most once).
-/// Linked binaries are kept in $XDG_CACHE_HOME/bin_scenes/programs, keyed by driver and source; a file that is
-/// damaged or refused by the driver is compiled anew.
+/// A shader file contains no #version line. The loader puts `#version 450 core` and the definitions in front and
+/// replaces `#include "shared/x.h"` (a path below the shader directory; each file is included at most once). Linked
+/// programs are stored in $XDG_CACHE_HOME/bin_scenes/programs under a key of driver and source. A stored file that is
+/// damaged, or that the driver refuses, is compiled again.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"
@@ -18,15 +18,17 @@ namespace bin_scenes::gl {
 
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
-/// BIN_SCENES_SHADERS, else the directory of the build or installation, else share/bin_scenes/shaders one or two
-/// directories above the executable's. Throws an environment Error that lists them if none exists.
+/// Returns the directory of the shaders: $BIN_SCENES_SHADERS if it is set, otherwise the directory of the build or
+/// installation, otherwise share/bin_scenes/shaders one or two directories above that of the executable. Throws an
+/// environment Error that lists these directories if none exists.
 std::string shader_directory();
 
+/// One linked compute program. The default-constructed object holds none.
 class Program {
  public:
   Program() = default;
-  /// `file` below the shader directory, e.g. "thesis/detect.comp". Throws an environment Error with the compiler's
-  /// message, file and line.
+  /// Compiles `file`, a path below the shader directory such as "thesis/detect.comp". Throws an environment Error with
+  /// the message of the compiler, file and line.
   static Program compute(const std::string& file, const Defines& defines = {});
   ~Program();
   Program(Program&& other) noexcept;
@@ -40,6 +42,7 @@ class Program {
   const std::string& name() const { return name_; }  ///< file name without directory and extension
   unsigned id() const { return id_; }
   unsigned group_size() const { return group_size_; }  ///< invocations per group along x
+  /// Whether the program was read from the disk instead of being compiled.
   bool from_cache() const { return from_cache_; }
 
  private:
@@ -54,22 +57,25 @@ class Program {
   mutable std::map<std::string, int> locations_;
 };
 
-/// What later commands wait for. The default, `all`, is always safe.
+/// Which later commands wait for a pass. The default, `all`, is always safe.
 enum class Barrier {
-  storage,    ///< later passes see what this one wrote
-  arguments,  ///< the same, and their numbers of groups: a GPU's front end waits until the pass has ended
-  none,       ///< the next pass touches nothing this one wrote
+  storage,    ///< later passes see what this pass wrote
+  arguments,  ///< the same, and later passes may take their numbers of groups from what it wrote; the front end of a
+              ///< GPU then waits until the pass has ended
+  none,       ///< the next pass uses nothing that this pass wrote
   all         ///< also rendering, textures, copies and read-backs through the API
 };
 void barrier(Barrier kind = Barrier::all);
 
-/// An axis takes at most 65,535 groups; more are folded into y. The shader computes its index with thread_index() or
-/// group_index() of shared/dispatch.h and checks its bound itself. With 0 groups nothing is dispatched.
+/// Returns the numbers of groups along x and y. One axis allows at most 65,535 groups; more are folded into y. The
+/// shader computes its index with thread_index() or group_index() of shared/dispatch.h and checks the bound itself.
+/// With 0 groups, nothing is dispatched.
 std::array<unsigned, 2> folded_groups(std::size_t groups);
 void dispatch_groups(const Program& program, std::size_t groups, Barrier after = Barrier::storage);
-/// Enough groups for one invocation per item.
+/// Dispatches enough groups for one invocation per item.
 void dispatch(const Program& program, std::size_t items, Barrier after = Barrier::storage);
-/// Group counts (three words) lie in `arguments` at `offset` bytes; see folded_groups() of shared/dispatch.h.
+/// Dispatches the numbers of groups (three words) that are stored in `arguments` at `offset` bytes; see folded_groups()
+/// of shared/dispatch.h.
 void dispatch_indirect(const Program& program, const Storage& arguments, std::size_t offset = 0,
                        Barrier after = Barrier::storage);
 

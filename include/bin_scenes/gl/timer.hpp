@@ -1,5 +1,6 @@
-/// Device times of stages by pairs of timestamps (GL_TIME_ELAPSED returns 0 around compute on llvmpipe).
-/// Results are fetched later, so that measuring does not stall.
+/// Measures the time that stages take on the device, by pairs of timestamps; GL_TIME_ELAPSED would return 0 around
+/// compute passes on llvmpipe. Results are fetched later, so that measuring does not make the host wait. The times are
+/// added to a Profile.
 #pragma once
 
 #include "bin_scenes/core/profile.hpp"
@@ -10,6 +11,7 @@
 
 namespace bin_scenes::gl {
 
+/// Measures consecutive stages. Its queries belong to the context that was current at first use.
 class Timer {
  public:
   Timer() = default;
@@ -17,11 +19,11 @@ class Timer {
   Timer(const Timer&) = delete;
   Timer& operator=(const Timer&) = delete;
 
-  /// Marks begin and end of a stage; stages do not nest. Also a debug group of that name.
+  /// Mark the begin and the end of a stage; stages cannot be nested. A stage is also a debug group of that name.
   void begin(const std::string& stage);
   void end();
 
-  /// Adds the stages that are finished, oldest first, to `profile`; with `wait` all of them.
+  /// Adds the stages that are finished to `profile`, oldest first. With `wait`, it waits for all stages.
   void collect(Profile& profile, bool wait = false);
 
  private:
@@ -35,7 +37,7 @@ class Timer {
   std::vector<unsigned> free_;
 };
 
-/// Times one scope.
+/// Measures one scope as a stage.
 class Stage {
  public:
   Stage(Timer& timer, const std::string& name) : timer_(timer) { timer_.begin(name); }

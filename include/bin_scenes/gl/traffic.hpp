@@ -1,4 +1,5 @@
-/// Counts of dispatches, barriers and copied bytes: on a fast device they determine the cost of a step.
+/// Counts of dispatches, barriers and copied bytes. On a fast device, these numbers determine the cost of a step. The
+/// functions of this layer count; TrafficCount adds the counts to a Profile.
 #pragma once
 
 #include "bin_scenes/core/profile.hpp"
@@ -7,13 +8,14 @@
 
 namespace bin_scenes::gl {
 
+/// Counts since the start of the thread.
 struct Traffic {
   std::uint64_t dispatches = 0, barriers = 0;
   std::uint64_t argument_barriers = 0;                    ///< those of the barriers that also protect numbers of groups
   std::uint64_t bytes_uploaded = 0, bytes_read_back = 0;  ///< between host and device
 };
 
-/// Totals of the calling thread, which has a device of its own. The functions of this layer add to them.
+/// Returns the totals of the calling thread, which has a device of its own.
 Traffic& traffic();
 
 /// Adds the counts during the object's lifetime to the counters gl_dispatches, gl_barriers, gl_argument_barriers,

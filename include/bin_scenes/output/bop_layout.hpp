@@ -1,5 +1,6 @@
-/// The paths of the images of a scene in BOP's layout by scenes (github.com/thodan/bop_toolkit,
-/// docs/bop_datasets_format.md, bop_toolkit_lib/dataset_params.py).
+/// The paths of the images of a scene in a BOP data set whose folders are scenes (github.com/thodan/bop_toolkit,
+/// docs/bop_datasets_format.md, bop_toolkit_lib/dataset_params.py). write_bop() and the packing of data sets use these
+/// paths; this header writes nothing.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"
@@ -9,21 +10,21 @@
 
 namespace bin_scenes {
 
-/// One image in its layout.
+/// The folders and files of one image in its layout.
 struct BopPlace {
   std::string sensor;
-  std::string suffix;     ///< of folders and of JSON files: "" or "_SENSOR"
-  std::size_t image = 0;  ///< im_id
+  std::string suffix;     ///< suffix of the names of folders and JSON files: "" or "_SENSOR"
+  std::size_t image = 0;  ///< the image's number, BOP's im_id
   struct File {
     std::string modality, folder, extension;
   };
   std::vector<File> files;
 };
-/// The place of each image of a scene. @param split  name of its folder; readers expect pictures of "train_pbr" also as
-/// RGB
+/// Returns the place of each image of a scene. @param split  name of the folder of the scene's split; readers expect
+/// grey pictures of "train_pbr" also as RGB
 std::vector<BopPlace> bop_places(const BopLayout& layout, const std::vector<Sensor>& sensors, const std::string& split);
 
-/// Path of a picture of the scene below its folder.
+/// Returns the path of a picture of the scene, relative to the scene's folder.
 std::string bop_picture(const BopLayout& layout);
 
 }  // namespace bin_scenes

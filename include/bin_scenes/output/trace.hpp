@@ -1,5 +1,6 @@
-/// --trace: states of every part over simulated time. The extension of the file says how they are written: .bag and
-/// .mcap as messages of ROS with the contacts (a build with ROS), all others as CSV.
+/// The option --trace of `generate`: it records the states of all parts over simulated time. The extension of the file
+/// determines the format: .bag and .mcap contain ROS messages with markers of the contacts and need a program with ROS,
+/// all other files are CSV. A trace is for looking at; nothing reads it back into a simulation.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"
@@ -13,33 +14,35 @@
 
 namespace bin_scenes {
 
-/// The scene at one moment.
+/// The scene at one moment of simulated time.
 struct TraceSample {
-  double time = 0.0;                   ///< s since the scene began
-  std::vector<ScenePart> parts;        ///< all of them, with id, pose (bin frame; not finite = not in the bin yet) and
-                                       ///< velocity
-  std::vector<SceneContact> contacts;  ///< of the step that ends then; only for a trace that shows_contacts()
+  double time = 0.0;  ///< s since the scene began
+  std::vector<ScenePart>
+      parts;  ///< all parts with id, pose (bin frame; not finite if the part is not in the bin yet) and velocity
+  std::vector<SceneContact>
+      contacts;  ///< the contacts of the step that ends at this time; only for a trace that shows_contacts()
 };
 
+/// A trace that is being written. Calls are in the order begin(), add() for ascending times, finish().
 class Trace {
  public:
   virtual ~Trace() = default;
-  /// Whether samples need their contacts, which cost the solver some time to list.
+  /// Whether samples must contain their contacts, which the solver needs some time to list.
   virtual bool shows_contacts() const { return false; }
-  /// Once, before the first sample, as soon as the models are loaded.
+  /// Called once before the first sample, as soon as the models are loaded.
   virtual void begin(const LoadedRequest& /*loaded*/) {}
   virtual void add(const TraceSample& sample) = 0;
-  /// Completes the file; before this call it does not exist under its name.
+  /// Completes the file. Before this call, it does not exist under its name.
   virtual void finish() = 0;
 };
 
-/// For the one scene of `request`. `profile`: of the messages in a .mcap file. Throws an environment Error where no
-/// file can be written, before anything is simulated.
+/// Opens a trace for the one scene of `request`. Throws an environment Error if the file cannot be written, before
+/// anything is simulated. @param profile  version of the ROS messages in an .mcap file
 std::unique_ptr<Trace> open_trace(const std::string& path, const Request& request, McapProfile profile);
 
 using MessageTraceMaker =
     std::function<std::unique_ptr<Trace>(const std::string& path, const Request& request, McapProfile profile)>;
-/// Makes .bag and .mcap known; called by the part of the program that knows ROS (ros/bag_format.cpp).
+/// Registers the maker of .bag and .mcap traces. The ROS layer calls it (ros/bag_format.cpp).
 void register_message_trace(MessageTraceMaker maker);
 
 }  // namespace bin_scenes

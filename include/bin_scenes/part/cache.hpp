@@ -1,7 +1,7 @@
-/// Disk cache of prepared parts in $XDG_CACHE_HOME/bin_scenes (else ~/.cache/bin_scenes).
-/// The key is made of content, parameters and format version. Files are written under a temporary name and renamed, so
-/// that two processes do not disturb each other. A checksum is tested on reading; a damaged file is built again. An
-/// unwritable cache is no error: parts are then prepared in each run.
+/// Disk cache of prepared parts in $XDG_CACHE_HOME/bin_scenes (otherwise ~/.cache/bin_scenes). The key of an entry
+/// consists of contents, parameters and format version. Files are written under a temporary name and renamed, so that
+/// two processes do not disturb each other. A checksum is tested on reading, and a damaged entry is made again. If the
+/// cache cannot be written, this is not an error: parts are then prepared in each run.
 #pragma once
 
 #include "bin_scenes/core/sha256.hpp"
@@ -16,7 +16,7 @@ namespace bin_scenes {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The contents of a cache file, mapped into memory, so that only what is read is loaded.
+/// The contents of a cache file, mapped into memory so that only what is read is loaded.
 class CachedBytes {
  public:
   CachedBytes(const CachedBytes&) = delete;
@@ -38,13 +38,15 @@ class CachedBytes {
   std::size_t size_;
 };
 
+/// The cache of this user. Its functions may be called from several threads.
 class Cache {
  public:
-  static Cache& global();  ///< BIN_SCENES_CACHE=off switches it off
+  static Cache& global();  ///< the environment variable BIN_SCENES_CACHE=off switches it off
 
   std::string directory() const;
-  /// Contents stored under `key`; none if the file is missing or damaged.
+  /// Returns the contents that are stored under `key`; none if the file is missing or damaged.
   std::optional<CachedBytes> read(const std::string& kind, const std::string& key) const;
+  /// Stores contents under `key`. Failure is not reported.
   void write(const std::string& kind, const std::string& key, const Bytes& bytes) const;
 };
 

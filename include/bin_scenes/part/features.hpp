@@ -1,4 +1,6 @@
-/// Sharp features of a mesh: the convex edges and corners with which a part touches others first.
+/// Sharp features of a mesh: the convex edges and corners with which a part touches others first. samples.hpp places
+/// contact samples on them, and the default solver tests with them whether its samples miss a feature. Concave edges
+/// are not features.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
@@ -7,28 +9,32 @@
 
 namespace bin_scenes {
 
+/// A corner, in the model frame (m).
 struct FeatureCorner {
   Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();  ///< mean of the faces around it, weighted by their angles at the corner
+  Vec3 normal = Vec3::Zero();  ///< mean normal of the faces around the corner, weighted by their angles at the corner
 };
 
-/// A run of sharp edges between two corners (or round a closed loop), as points along it.
+/// A sequence of sharp edges between two corners, or around a closed loop, as points along it.
 struct FeatureCurve {
   std::vector<Vec3> points;   ///< a closed loop repeats its first point at the end
-  std::vector<Vec3> normals;  ///< one per segment: mean of its two faces
+  std::vector<Vec3> normals;  ///< one for each segment: the mean normal of its two faces
   bool closed = false;
 
+  /// Returns the length of the curve (m).
   double length() const;
 };
 
+/// All sharp features of a mesh.
 struct Features {
   std::vector<FeatureCorner> corners;  ///< where sharp edges end, meet or bend
   std::vector<FeatureCurve> curves;
 };
 
-/// Edges whose faces turn outwards by more than `sharp_angle` (rad). Edges with one face only (an open mesh) count as
-/// sharp; concave edges do not, because nothing touches a part there before it touches a face. Slivers have no
-/// reliable normal of their own; they take the normal of the face across their longest edge.
+/// Finds the edges at which the outward normals of the two faces differ by more than `sharp_angle` (rad). Edges with
+/// only one face (an open mesh) count as sharp. Concave edges do not count, because nothing touches a part there before
+/// it touches a face. The normal of a sliver triangle is unreliable, and the normal of the face across its longest edge
+/// is used instead.
 Features sharp_features(const Mesh& mesh, double sharp_angle);
 
 }  // namespace bin_scenes

@@ -1,4 +1,5 @@
-/// A request together with the models that it names.
+/// A request together with the models that it names. It is the common input of the layers that pour, judge, render and
+/// write a scene, so that none of them loads a file again.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
@@ -8,14 +9,14 @@
 
 namespace bin_scenes {
 
-/// The common input of pouring, judging, rendering and writing a scene.
+/// The request and its prepared models.
 struct LoadedRequest {
   Request request;
   std::vector<PartModelPtr> parts = {};  ///< the models, by part line
-  PartModelPtr bin_model = nullptr;      ///< Bin::Kind::mesh only
+  PartModelPtr bin_model = nullptr;      ///< the mesh of the bin; Bin::Kind::mesh only
 };
 
-/// Mass of one part of the line (kg): as given, or density times the volume of the mesh.
+/// Returns the mass of one part of a line (kg): as given, or density times the volume of the mesh.
 inline double mass_of(const PartLine& line, const PartModel& model) {
   return line.mass ? *line.mass : line.density.value_or(1000.0) * model.mass().volume;
 }

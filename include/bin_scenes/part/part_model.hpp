@@ -1,5 +1,6 @@
-/// One CAD part, prepared for simulation: mesh, mass properties and collision shapes. A shape is made when a solver
-/// first needs it, once per content and parameters, and kept in memory and in the disk cache.
+/// One CAD part, prepared for simulation: its mesh, mass properties and collision shapes. A collision shape is made
+/// when a solver first needs it, once for each combination of contents and parameters. It is kept in memory and in the
+/// disk cache (cache.hpp). A model is immutable to its users and may be shared between threads and requests.
 #pragma once
 
 #include "bin_scenes/mesh/mesh_loader.hpp"
@@ -16,17 +17,18 @@
 
 namespace bin_scenes {
 
-/// Preparation done by this process so far. The second run of a program reads everything from the cache.
+/// Counts of the preparation work of this process. A second run of a program reads everything from the cache.
 struct PartWork {
-  std::size_t built = 0;  ///< meshes loaded and proxies computed
-  std::size_t read = 0;   ///< taken from the disk cache instead
+  std::size_t built = 0;  ///< meshes that were loaded and shapes that were computed
+  std::size_t read = 0;   ///< meshes and shapes that were read from the disk cache instead
 };
 
+/// A prepared part. References that its functions return are valid as long as the model lives.
 class PartModel {
  public:
-  /// Loads through the cache. Throws like load_mesh.
+  /// Loads a model file through the cache. Throws like load_mesh().
   static std::shared_ptr<const PartModel> load(const std::string& path, const LoadOptions& options = {});
-  /// From a mesh in memory (tests, generated shapes); `name` stands for the path.
+  /// Makes a model from a mesh in memory (for tests and generated shapes); `name` takes the place of the path.
   static std::shared_ptr<const PartModel> from_mesh(const Mesh& mesh, const std::string& name);
   static PartWork work();
   ~PartModel();
@@ -34,16 +36,17 @@ class PartModel {
   const std::string& path() const;
   const Mesh& mesh() const;
   const LoadReport& load_report() const;
-  const std::string& mesh_key() const;  ///< hash of the mesh: cache key of everything that depends on the mesh alone
-  const MassProperties& mass() const;   ///< density 1
-  double diagonal() const;              ///< of the bounding box (m): the unit of every relative error
-  double radius() const;                ///< largest vertex distance from the centre of mass (m)
+  const std::string& mesh_key()
+      const;  ///< digest of the mesh, the cache key of everything that depends on the mesh only
+  const MassProperties& mass() const;  ///< at a density of 1 kg/m3
+  double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
+  double radius() const;               ///< largest distance of a vertex from the centre of mass (m)
 
   struct State;  ///< defined in src/part
 
-  // Proxies: thread-safe, lazy, cached on disk. References live as long as the model.
+  // Collision shapes. They are made on first use, by whichever thread needs them first, and cached on disk.
   const MeshQuery& query() const;
-  const std::vector<Vec3>& corners() const;  ///< vertices that reach as far as the mesh, however it is turned
+  const std::vector<Vec3>& corners() const;  ///< vertices that extend as far as the whole mesh in every direction
   const SphereSet& spheres(const VoxelOptions& options) const;
   const DistanceField& field(const FieldOptions& options) const;
   const ConvexHulls& hulls(const HullOptions& options) const;

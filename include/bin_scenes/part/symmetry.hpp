@@ -1,4 +1,5 @@
-/// Rotations after which a part looks the same, found on its mesh. Evaluations of poses need them.
+/// Symmetries of a part: rotations after which it looks the same, found on its mesh. BOP's models_info.json contains
+/// them, because evaluations of estimated poses need them. Reflections are not considered.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
@@ -7,37 +8,39 @@
 
 namespace bin_scenes {
 
-/// Model frame, m.
+/// The symmetries of a part, in the model frame (m).
 struct Symmetries {
   struct Axis {
     Vec3 direction = Vec3::UnitZ();
-    Vec3 point = Vec3::Zero();  ///< on the axis
+    Vec3 point = Vec3::Zero();  ///< a point of the axis
   };
-  std::vector<Axis> continuous;  ///< any angle
-  std::vector<Pose> discrete;    ///< maps of the part onto itself, without the identity
+  std::vector<Axis> continuous;  ///< axes about which any rotation is a symmetry
+  std::vector<Pose> discrete;    ///< transforms that map the part onto itself, without the identity
 };
 
-/// Symmetries, and how exact they are: the largest distance (m) from the surface of a point of the turned surface.
+/// Symmetries with their errors. An error is the largest distance (m) of a point of the rotated surface from the
+/// surface.
 struct SymmetryReport {
   Symmetries symmetries;
-  std::vector<double> continuous_error, discrete_error;  ///< by axis, by map
-  double limit = 0.0;                                    ///< m: an error up to this is a symmetry
+  std::vector<double> continuous_error, discrete_error;  ///< m, by axis and by transform
+  double limit = 0.0;                                    ///< m: a rotation with at most this error counts as a symmetry
   struct Nearly {
     Vec3 direction = Vec3::UnitZ();
-    int order = 0;       ///< 0: any angle
-    double error = 0.0;  ///< above the limit, up to three times as much
+    int order = 0;       ///< number of rotations in a full turn; 0 means any angle
+    double error = 0.0;  ///< m, more than the limit and at most three times the limit
   };
   std::vector<Nearly> nearly;  ///< axes that miss the limit by little, for instance because of a mark or a chamfer
 };
 
-/// Rotations about the centre of mass that move no point of the surface by more than `tolerance` * diagonal away from
-/// the surface. The candidates are the principal axes of inertia; where two moments are equal, also axes between them,
-/// normals of large faces and directions of far vertices; where all three are equal, also directions of arms. Orders 2
-/// to 100 and full turns are tested. A symmetry about any other axis is not found.
+/// Finds rotations about the centre of mass that move no point of the surface away from the surface by more than
+/// `tolerance` * diagonal. The candidates are the principal axes of inertia; if two moments are equal, also axes
+/// between them, normals of large faces and directions of far vertices; if all three are equal, also directions of
+/// protruding arms. Orders 2 to 100 and full rotational symmetry are tested. A symmetry about any other axis is not
+/// found.
 SymmetryReport examine_symmetries(const PartModel& part, double tolerance = 0.01);
 Symmetries find_symmetries(const PartModel& part, double tolerance = 0.01);
 
-/// Largest distance of two vertices (m).
+/// Returns the largest distance between two vertices (m).
 double diameter(const Mesh& mesh);
 
 }  // namespace bin_scenes

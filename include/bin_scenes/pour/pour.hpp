@@ -1,5 +1,6 @@
-/// From a request to a scene at rest: parts start from seeded poses without overlap, enter above the growing heap, and
-/// rest is decided over a window of simulated time. The code depends on the interface of solvers only.
+/// From a request to a scene at rest: parts start at seeded poses without overlap and enter above the growing heap, and
+/// a window of simulated time decides on rest. The code uses solvers through their interface only (solver/solver.hpp).
+/// It does not judge the result; quality/ does.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
@@ -11,47 +12,52 @@
 
 namespace bin_scenes {
 
+/// The state of a running job, for the user.
 struct Progress {
   std::string phase;      ///< "load", "prepare", "pour", "settle", "quality", "render", "write"
   std::size_t scene = 0;  ///< index of the scene
   std::size_t parts = 0, resting = 0;
   double simulated_s = 0.0;
-  double fraction = 0.0;  ///< 0..1, never falls
+  double fraction = 0.0;  ///< share of the job that is done, 0..1; never decreases
 };
 
-/// Optional callbacks of a caller.
+/// Optional callbacks of the caller.
 struct RunHooks {
   std::function<void(const Progress&)> progress;
-  const std::atomic<bool>* cancel = nullptr;  ///< polled often; throws Error(cancelled)
-  /// Called with the states of all bodies (option --trace): at the start, at the ends of the steps nearest to whole
-  /// multiples of 1 / `trace_rate` (Hz of simulated time; at most once a step), and at the end.
+  const std::atomic<bool>* cancel = nullptr;  ///< if it becomes true, Error(cancelled) is thrown soon
+  /// Called with the states of all bodies (option --trace): at the start, at the end of the step that is nearest to
+  /// each multiple of 1 / `trace_rate` (Hz of simulated time; at most once per step), and at the end.
   std::function<void(std::size_t scene, double time, const std::vector<BodyState>&)> trace;
   double trace_rate = 0.0;
-  /// Called before `trace` with the contacts of the same moment (Solver::contact_forces()).
+  /// Called before `trace` with the contacts at the same time (Solver::contact_forces()).
   std::function<void(const std::vector<ContactForce>&)> trace_contacts;
 };
 
-/// World of one scene of the request (bodies in order of part lines, one id each; walls up to the rim).
-/// The model of a mesh bin is loaded through the cache when not given.
+/// Returns the world of one scene of the request: one body for each part in the order of part lines, and walls up to
+/// the rim. If the model of a mesh bin is not given, it is loaded through the cache.
 WorldDef world_of(const LoadedRequest& loaded);
 
-/// Pours scene `index` of the request for each of the given indices, as settle_scenes() (heap.hpp) does; scenes in the
-/// order of the indices.
+/// Pours the scenes with the given indices, as settle_scenes() (heap.hpp) does, and returns them in the order of the
+/// indices.
 ///
-/// While parts come in, the walls of a box reach above the rim far enough to hold what enters; when all are in and
-/// slow, they are cut back to the rim if the heap stands above it or a motion follows. A part whose centre of mass is
-/// then beside the inner floor area (at any height), below the floor, or not finite, has escaped: it is taken out of
-/// the world and keeps its last finite pose. A part that lies above the rim but within the floor area has not. With a
-/// mesh bin the bounds of the mesh stand for the inner box, with an endless floor only falling through it counts, with
-/// no bin only NaN. A part that finds no room below the rim while everything else has come to rest is not poured: it
-/// keeps its id, and its pose is Pose::none().
+/// While parts enter, the walls of a box are extended above the rim far enough to hold them. When all parts are in the
+/// bin and slow, the walls are cut back to the rim if the heap is higher than the rim or if a motion follows.
 ///
-/// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
-/// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.
+/// A part has escaped if its centre of mass is then outside the inner floor area (at any height), below the floor, or
+/// not finite. It is removed from the world and keeps its last finite pose. A part above the rim but within the floor
+/// area has not escaped. For a mesh bin, the bounds of the mesh take the place of the inner box; with an endless floor,
+/// a part escapes only below the floor; with no bin, only by NaN.
+///
+/// A part that finds no room below the rim when everything else has come to rest is not poured: it keeps its id, and
+/// its pose is Pose::none().
+///
+/// Pouring ends when every part in the bin has stayed within Pour::rest_move and rest_turn for Pour::rest_window
+/// (RestWatch), or at Pour::limit with parts in state `moving`. With Request::seconds, it ends at exactly that time, at
+/// rest or not.
 std::vector<Scene> pour(const LoadedRequest& loaded, Solver& solver, const std::vector<std::size_t>& indices,
                         const RunHooks& hooks = {});
 
-/// Hash over the bits of the poses of all parts.
+/// Returns a hash of the bits of the poses of all parts.
 std::uint64_t state_hash(const std::vector<ScenePart>& parts);
 
 }  // namespace bin_scenes

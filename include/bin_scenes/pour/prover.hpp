@@ -1,4 +1,5 @@
-/// Whether a grasp lifts a part out of its heap: tried in a copy of the heap.
+/// Tests by simulation whether a grasp lifts a part out of its heap. The test runs in a copy of the heap, which itself
+/// does not change. grasp/ proposes the grasps; `prove` of a request selects how many are tested.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
@@ -10,28 +11,29 @@
 
 namespace bin_scenes {
 
-/// A grasp to be tried.
+/// A grasp to be tested.
 struct Trial {
-  int part = 0;               ///< id
+  int part = 0;               ///< id of the part
   std::size_t gripper = 0;    ///< index into Request::grippers
-  Pose pose;                  ///< of the gripper in the bin frame, at the end of its approach
-  double width = 0.0;         ///< m, parallel: at which the pads should meet the part
-  double force = 0.0;         ///< N: of each finger, or of the vacuum
-  bool inner = false;         ///< parallel: the fingers expand
-  Vec3 lift = Vec3::UnitZ();  ///< unit: direction of the lift in the bin frame
+  Pose pose;                  ///< from the gripper frame to the bin frame, at the end of the approach
+  double width = 0.0;         ///< m, parallel grippers: the opening at which the pads should meet the part
+  double force = 0.0;         ///< N, of each finger or of the vacuum
+  bool inner = false;         ///< parallel grippers: the fingers expand instead of closing
+  Vec3 lift = Vec3::UnitZ();  ///< unit vector, direction of the lift in the bin frame
 };
 
-/// Fingers close with their force, or the vacuum pulls the part to the cup's ring; then the gripper moves by 0.1 m
-/// along the lift, at first with its acceleration. Other parts sleep until something touches them. Always by the
-/// default solver, on the CPU.
+/// Simulates grasps. The fingers close with their force, or the vacuum pulls the part against the ring of the cup; then
+/// the gripper moves by 0.1 m along the lift and starts with its own acceleration. The other parts sleep until
+/// something touches them. The simulation always uses the default solver on the CPU.
 ///
-/// Keeps the shapes of parts and grippers between the scenes of a request. Thread-safe: serves one caller at a time.
+/// A Prover keeps the shapes of parts and grippers between the scenes of a request. It may be shared by threads, and
+/// serves one caller at a time.
 class Prover {
  public:
   explicit Prover(const LoadedRequest& loaded);
   ~Prover();
-  /// In the order of the trials; `loaded`: as at first, but for gravity. A trial's result depends on the scene alone,
-  /// not on other trials.
+  /// Returns the results in the order of the trials. The result of a trial depends on the scene only, not on the other
+  /// trials. @param loaded  as given to the constructor, except that gravity may differ
   std::vector<LiftProof> prove(const Scene& scene, const LoadedRequest& loaded, const std::vector<Trial>& trials);
 
  private:

@@ -1,9 +1,11 @@
-/// A gripper of a request: what closes on a part or sucks it, as boxes and a cup. SI units. Meaning, unit and range of
-/// a field that is a key are in the table of keys (src/scene/gripper_keys.hpp); comments here are of fields that are
-/// none.
+/// A gripper of a request: two fingers that close on a part, described by boxes, or a suction cup. All values are in SI
+/// units. Keys of the request are described in their table (src/scene/gripper_keys.hpp); the comments here describe
+/// only the fields that are not keys. The search for grasps (grasp/) and their simulation (pour/prover.hpp) use this
+/// struct.
 ///
-/// Gripper frame: z is the direction of approach, from the gripper towards the part; x the direction in which fingers
-/// close. The origin is the centre between the pads, or of the cup's ring where it touches the surface.
+/// Gripper frame: z is the direction of approach, from the gripper towards the part, and x is the direction in which
+/// the fingers close. The origin is the centre between the two pads or, for a cup, the centre of the ring with which it
+/// touches the surface.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -15,8 +17,8 @@
 
 namespace bin_scenes {
 
-/// Weights of the columns of a grasp (grasp/score.hpp), calibrated by bench/datasets/calibration: score = 1 / (1 +
-/// exp(-(bias + sum of weight * column))).
+/// Weights of the features from which the score of a grasp is computed (grasp/score.hpp): score = 1 / (1 + exp(-(bias +
+/// sum of weight * feature))). bench/datasets/calibration fitted the values.
 struct ScoreWeights {
   double bias = -0.6;
   double holding = 1.0;
@@ -33,10 +35,11 @@ struct ScoreWeights {
 
 /// Where the pads of two fingers touch a part.
 struct Aperture {
-  double width = 0.0;  ///< m between the surfaces that the pads touch
+  double width = 0.0;  ///< m, distance between the two surfaces that the pads touch
   bool inner = false;  ///< the fingers are between these surfaces and press outwards, as in a ring or tube
 };
 
+/// One gripper with its dimensions, forces and limits of the search. Keys are described in the table.
 struct Gripper {
   enum class Type {
     parallel,  ///< two fingers that close along a line
@@ -52,7 +55,8 @@ struct Gripper {
   double finger_thickness = 0.01;
   std::string finger_mesh;
   double finger_mesh_scale = 1.0;
-  std::vector<Aabb> finger_boxes;  ///< m: around that shape, filled when the request is loaded; empty: one box
+  std::vector<Aabb> finger_boxes;  ///< m, boxes around the finger mesh in the gripper frame, filled in when the request
+                                   ///< is loaded; empty: one box per finger
   double pad_length = 0.012;
   double pad_give = 2e-4;
   double radius = 0.01;
@@ -73,23 +77,26 @@ struct Gripper {
   std::size_t tries = 600;
   ScoreWeights score;
 
+  /// m: by how much the opening of the fingers can change, or by how much a cup can be compressed.
   double travel() const { return stroke.value_or(type == Type::parallel ? 0.05 : 0.5 * radius); }
-  /// m, parallel: range of the widths of parts that the opened fingers can pass, or of holes that they can enter.
+  /// Parallel grippers, m: the largest width of a part that the opened fingers can pass, and the smallest and largest
+  /// width of a hole that the fingers can enter.
   double widest() const { return travel() - 2.0 * finger_clearance; }
   double narrowest_hole() const { return 2.0 * (finger_thickness + finger_clearance); }
   double widest_hole() const { return travel() + 2.0 * finger_thickness; }
-  /// m, parallel: between the inner faces of the fingers.
+  /// Parallel grippers, m: the distance between the inner faces of the fingers when the pads touch the part.
   double between_fingers(const Aperture& at) const { return at.inner ? at.width - 2.0 * finger_thickness : at.width; }
-  /// m, parallel: by how much each finger is away from the part before it closes, or expands.
+  /// Parallel grippers, m: the distance of each finger from the part before the fingers close or expand.
   double opened(const Aperture& at) const;
-  /// Of the gripper's frame in that of the flange.
+  /// Returns the orientation of the gripper frame relative to the flange.
   Quat tool_orientation() const;
-  /// Of the flange in the gripper's frame: the centre of the palm's back, with z towards the tool.
+  /// Returns the pose of the flange in the gripper frame. Its origin is the centre of the back of the palm, and its z
+  /// axis points towards the tool.
   Pose flange() const;
 };
 
-/// Throws an input Error at `key` for lengths that are no gripper's (which names the likely unit), or that contradict
-/// each other.
+/// Throws an input Error that names `key` if a length is implausible for a gripper (the error then names the likely
+/// unit) or if lengths contradict each other.
 void check_gripper(const Gripper& gripper, const std::string& key);
 
 }  // namespace bin_scenes

@@ -1,5 +1,6 @@
-/// One key of a request or of scene.json, as the tables of keys list them (docs/develop/architecture.md, One table for
-/// each struct): readers, writers, range checks, messages, the JSON schema and the generated pages all use this entry.
+/// One key of a request or of scene.json, as the tables of keys list them (docs/develop/architecture.md, "One table for
+/// each struct"). Readers, writers, range checks, ROS messages, the JSON schema and the generated pages all use this
+/// entry, so that a key is described in one place only.
 #pragma once
 
 #include <limits>
@@ -9,11 +10,11 @@
 
 namespace bin_scenes {
 
-/// The allowed values of a number, or of each number of a list or vector.
+/// The allowed values of a number, or of each number of a list or vector: at least `least`, at most `most`.
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool above = false;  ///< least itself is excluded
+  bool above = false;  ///< the value `least` itself is not allowed
 };
 constexpr Range anything{};
 constexpr Range at_least(double least, double most = std::numeric_limits<double>::infinity()) {
@@ -25,19 +26,19 @@ constexpr Range above(double least, double most = std::numeric_limits<double>::i
 
 struct Key {
   const char* name;
-  const char* unit;  ///< "" if it has none
-  const char* text;  ///< meaning; what a larger or smaller value costs
+  const char* unit;  ///< "" for a key without a unit
+  const char* text;  ///< the meaning, and what a larger or smaller value costs
   Range range = anything;
-  bool written =
-      true;  ///< false: without meaning for the present values of other keys; then neither written back nor checked
-  bool needed = false;  ///< a file without it is refused
+  bool written = true;  ///< false: the present values of other keys make this key meaningless, and it is neither
+                        ///< written nor checked
+  bool needed = false;  ///< a file without this key is refused
 };
 
-/// Names of an enumeration as the request spells them.
+/// The values of an enumeration with their names in request files.
 template <class Enum>
 using Names = std::vector<std::pair<const char*, Enum>>;
 
-/// The name of a value, by the table names(Enum) of its enumeration.
+/// Returns the name of a value according to the table names(Enum) of its enumeration.
 template <class Enum>
 const char* name_in_table(Enum value) {
   for (const auto& [name, meaning] : names(value))
@@ -45,7 +46,7 @@ const char* name_in_table(Enum value) {
   return "?";
 }
 
-/// A value that is one of the words known.
+/// A text value together with the words that are allowed for it.
 struct Word {
   std::string value;
   std::vector<std::string> known;

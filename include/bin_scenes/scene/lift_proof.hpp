@@ -1,22 +1,27 @@
-/// The result of a grasp that was simulated in a copy of its heap.
+/// The result of simulating one grasp in a copy of its heap. Prover (pour/prover.hpp) produces it, and grasps.json
+/// reports it. It describes whether the part was lifted, and what happened to the other parts.
 #pragma once
 
 #include <vector>
 
 namespace bin_scenes {
 
+/// The outcome of one simulated grasp, with the motion of the gripped part and the ids of other parts that it
+/// disturbed.
 struct LiftProof {
   enum class Outcome {
-    lifted,   ///< it is in the gripper, over the heap, and alone
-    missed,   ///< the fingers closed on nothing
-    slipped,  ///< the gripper lost it
-    jammed,   ///< the same, while others pulled it down with more than its weight
-    dragged   ///< it came, and others with it
+    lifted,   ///< the part is in the gripper, above the heap, and no other part came with it
+    missed,   ///< the fingers closed without touching the part
+    slipped,  ///< the part slipped out of the gripper
+    jammed,   ///< the part slipped out while other parts held it back with more than its own weight
+    dragged   ///< the part was lifted, and other parts came with it
   } outcome = Outcome::lifted;
-  double slip = 0.0;         ///< m: of its centre of mass in the gripper, from when that held it; until it was lost
-  double turn = 0.0;         ///< rad: likewise, of its turn
-  std::vector<int> dragged;  ///< ids of other parts that came up with it, by half of the lift or more; ascending
-  std::vector<int> moved;    ///< of those that moved by 5 % of their diagonal or turned by 0.1 rad; ascending
+  double slip = 0.0;  ///< m, displacement of the centre of mass relative to the gripper, from the moment the gripper
+                      ///< held the part until the end or the loss of the part
+  double turn = 0.0;  ///< rad, rotation relative to the gripper over the same time
+  std::vector<int> dragged;  ///< ids of other parts that rose by at least half of the lift, ascending
+  std::vector<int> moved;    ///< ids of other parts that moved by at least 5 % of their diagonal or turned by at least
+                             ///< 0.1 rad, ascending
 };
 
 const char* name_of(LiftProof::Outcome outcome);

@@ -1,5 +1,5 @@
-/// Settings of sensor models, stored by their type, so that Sensor can hold the settings of any model without including
-/// its header.
+/// A container for the settings of sensor models, stored by their type. Through it, Sensor (scene/request.hpp) holds
+/// the settings of any model, also of models in other programs, without including their headers.
 #pragma once
 
 #include <any>
@@ -8,9 +8,11 @@
 
 namespace bin_scenes {
 
+/// At most one object for each type of settings.
 class ModelSettings {
  public:
-  /// The settings of that type; the first call makes them with their defaults.
+  /// Returns the settings of this type. The first call creates them with their default values; the const form returns
+  /// the defaults if none were set.
   template <class Settings>
   Settings& of() {
     std::any& found = all_[typeid(Settings)];

@@ -1,4 +1,5 @@
-/// Motion on a given path, of the bin or of a fixed part (a pusher, a conveyor). Nothing can stop or deflect it.
+/// Prescribed motion of the bin or of a fixed part, such as a pusher or a conveyor. Nothing can stop or deflect such a
+/// body. Keys are described in their table (src/scene/keys.hpp).
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -7,8 +8,9 @@
 
 namespace bin_scenes {
 
-/// What a body does, relative to the pose where it stands: along a path, shaken about it, or as a belt that stays in
-/// its place. It begins once all parts are in and slow (given parts: at once), and begins and ends at rest.
+/// The motion of a body relative to its initial pose: along a path of given poses, shaken about that pose, or as a belt
+/// whose surface moves while the body stays in place. The motion begins when all parts are in the bin and slow (with
+/// given start poses: at once). It begins and ends at rest.
 struct Motion {
   std::vector<double> times;
   std::vector<Pose> poses;
@@ -19,8 +21,9 @@ struct Motion {
   double seconds = 1.0;
 
   bool any() const { return !times.empty() || !shake.isZero() || !tilt.isZero() || !belt.isZero(); }
-  double duration() const;  ///< s; 0: it does not move
-  Pose at(double t) const;  ///< displacement t seconds (any number) after the beginning
+  double duration() const;  ///< s; 0 if the body does not move
+  /// Returns the displacement from the initial pose, `t` seconds after the motion began; `t` may be any number.
+  Pose at(double t) const;
 };
 
 }  // namespace bin_scenes

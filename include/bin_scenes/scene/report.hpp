@@ -1,6 +1,7 @@
-/// Report of a finished scene, measured on the true meshes (quality/), not on a solver's collision shapes. Meaning and
-/// unit of a field are in the table of keys (src/scene/report_keys.hpp), which docs/use/scene.md prints; comments here
-/// are of fields that are no keys.
+/// The report of a finished scene: quality figures, limits that were exceeded, times and flags. Penetration, gap and
+/// drift are measured on the true meshes (quality/), not on the collision shapes of a solver. Keys are described with
+/// their units in a table (src/scene/report_keys.hpp), which docs/use/scene.md prints; the comments here describe only
+/// what is not a key.
 #pragma once
 
 #include "bin_scenes/core/profile.hpp"
@@ -12,19 +13,22 @@
 
 namespace bin_scenes {
 
-/// A remark for the user, with a remedy: a buffer that was enlarged, a mesh that was repaired.
+/// A remark for the user, with a remedy; for example, a buffer was enlarged or a mesh was repaired. `code` is a short
+/// fixed name.
 struct Flag {
   std::string code;
   std::string text;
   std::string remedy;
 };
 
-/// Quantiles over pairs (m).
+/// The median, the 95 % quantile and the maximum of a set of values (m).
 struct Quantiles {
   double median = 0.0, p95 = 0.0, max = 0.0;
 };
+/// Returns the quantiles of values in any order; all 0 if there are none.
 Quantiles quantiles(std::vector<double> values);
 
+/// Overlap of the parts with each other and with the bin, in the final poses.
 struct PenetrationReport : Quantiles {
   std::array<int, 2> pair = {-1, -1};
   double p95_relative = 0.0, max_relative = 0.0;
@@ -33,19 +37,21 @@ struct PenetrationReport : Quantiles {
   int bin_part = -1;
 };
 
-struct DriftReport : Quantiles {  ///< m: move of the centre of mass in 0.5 s of a re-run
+struct DriftReport
+    : Quantiles {  ///< m, displacement of the centres of mass while the scene is simulated for another 0.5 s
   bool measured = false;
   double turn_p95 = 0.0;
 };
 
-/// Energy that a part gained and that nothing gave it: a solver whose contacts throw parts about.
+/// The largest gain of energy of a part that nothing explains. A large value means that contacts threw a part.
 struct EnergyReport {
   double gain = 0.0;
   double time = 0.0;
   int part = -1;
 
-  /// A part that left others faster than any of them was: what a pinch throws out is light, and its energy small.
-  /// What bounces may leave 1 + restitution times as fast; its ratio is divided by that.
+  /// The part that left its neighbours fastest in comparison with their own speed. This measure finds light parts that
+  /// were pinched out, whose energy is small. A bounce may separate bodies at 1 + restitution times their approach
+  /// speed; the ratio is divided by that number.
   struct Thrown {
     double ratio = 0.0;
     double time = 0.0;
@@ -54,9 +60,10 @@ struct EnergyReport {
   } thrown;
 };
 
-/// The worst of the whole run, not of its end: a scene that looks right may have gone wrong before.
+/// The worst values of the whole simulation and not only of its end. A scene that looks right at the end may have gone
+/// wrong before.
 struct WorstReport {
-  /// Deepest contact, by the solver's own depths.
+  /// The deepest contact, according to the solver's own contact depths.
   struct Penetration {
     bool known = false;  ///< whether the solver reports the depths of its contacts
     double value = 0.0;
@@ -64,7 +71,7 @@ struct WorstReport {
     std::array<int, 2> pair = {-1, -1};
     double time = 0.0;
   } penetration;
-  /// Rise of the energy of all parts together above the least that it was before.
+  /// The largest rise of the total energy of all parts above the lowest value that it had before.
   struct EnergyGain {
     double relative = 0.0;
     double time = 0.0;
@@ -72,12 +79,13 @@ struct WorstReport {
   std::uint64_t unresolved_impacts = 0;
 };
 
-/// The part that contacts squeeze most, from opposite sides.
+/// The part that opposite contacts squeeze most.
 struct JamReport {
   double ratio = 0.0;
   int part = -1;
 };
 
+/// Everything that is known about how a scene was made and how good it is.
 struct Report {
   bool at_rest = false;
   bool accepted = false;

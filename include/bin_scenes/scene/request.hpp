@@ -1,7 +1,7 @@
-/// The user's request: plain data, one field per key of the request file (docs/use/request.md), SI units.
-/// config/ reads it from YAML, ros/ from the message; both fill the same struct, and check() tests it. Meaning, unit,
-/// range and consequence of a field that is a key are in the table of keys (src/scene/keys.hpp), which that page
-/// prints; comments here are of fields that are none.
+/// The user's request as plain data, with one field for each key of the request file, in SI units. `config` reads it
+/// from YAML and `ros` from the message; both fill the same struct, and check() tests it. The meaning, unit, range and
+/// consequence of each key are in the table of keys (src/scene/keys.hpp), from which docs/use/request.md is generated;
+/// the comments here describe only the fields that are not keys. Nothing here reads files or depends on a solver.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -18,26 +18,31 @@
 
 namespace bin_scenes {
 
+/// The length unit of a model file.
 enum class Unit { metre, centimetre, millimetre, inch };
+/// Returns the length of one unit in metres.
 double metres_per(Unit unit);
 const char* name_of(Unit unit);  ///< "m", "cm", "mm", "inch"
 
-/// What wears a surface, in places that differ from part to part: shares of it, 0..1. A part's own share is drawn
-/// evenly around the one given, as far as 0 or 1 allow.
+/// Wear of a surface: the shares of its area (0..1) that are scratched, oily or rusty. The places differ from part to
+/// part. The share of one part is drawn uniformly from an interval around the given share that is as wide as the limits
+/// 0 and 1 allow.
 struct Texture {
   double scratches = 0.0, oil = 0.0, rust = 0.0;
   bool any() const { return scratches > 0.0 || oil > 0.0 || rust > 0.0; }
 };
 
-/// Optical surface of a part or the bin. Affects intensity, noise, drop-out and saturation of sensors, not physics.
+/// The optical surface of a part or of the bin. It affects intensity, noise, missing pixels and saturation of sensors,
+/// but not the physics.
 struct Surface {
   double albedo = 0.5;
   double gloss = 0.0;
   double roughness = 0.4;
-  /// Complex index of refraction of a metal, n + i k, both 0 for none: what is mirrored is then, of albedo * gloss, the
-  /// share that Fresnel's formulas say.
+  /// The complex index of refraction of a metal, n + i k; both are 0 for other materials. For a metal, the share of the
+  /// light that is mirrored is albedo * gloss times the reflectance by Fresnel's formulas.
   double refraction = 0.0, extinction = 0.0;
-  /// Of red, green and blue: shares of albedo, of what is scattered; metals mirror it, too. Seen by colour images.
+  /// Red, green and blue: factors of the albedo for scattered light and, on metals, for mirrored light. Only colour
+  /// images show them.
   Vec3 colour = Vec3::Ones();
   double anisotropy = 0.0;
   Vec3 along = Vec3::Zero();
@@ -45,19 +50,19 @@ struct Surface {
   bool metal() const { return refraction > 0.0 || extinction > 0.0; }
 };
 
-/// The bin. Its origin is the centre of the floor's top, z up.
+/// The bin. The origin of the bin frame is the centre of the upper side of the floor, and z points up.
 struct Bin {
   enum class Kind {
-    box,    ///< floor and four walls, analytic
-    mesh,   ///< a mesh, with a pose in the bin frame
-    floor,  ///< endless plane z = 0
-    none    ///< no bin: free flight
+    box,    ///< a floor and four walls
+    mesh,   ///< a mesh file, with a pose in the bin frame
+    floor,  ///< the endless plane z = 0
+    none    ///< no bin; parts move freely
   };
   Kind kind = Kind::box;
   Vec3 inner_size = Vec3(0.40, 0.30, 0.20);
   double wall_thickness = 0.005;
   std::string mesh;
-  std::string mesh_sha256;  ///< mesh: of the file's bytes as the reader saw them; empty: not known
+  std::string mesh_sha256;  ///< digest of the bytes of the mesh file that the reader saw; empty if not known
   std::optional<Unit> unit;
   Pose pose;
   double friction = 0.5;
@@ -66,18 +71,18 @@ struct Bin {
   Motion motion;
 };
 
-/// One line of `parts`: `count` copies of one model.
-/// How finely the surfaces of a STEP or IGES file become triangles.
+/// How finely the surfaces of a STEP or IGES file are divided into triangles.
 struct Tessellation {
   std::optional<double> chord;
   double angle = 0.2;
   bool given() const { return chord || angle != Tessellation().angle; }
 };
 
+/// One entry of the list `parts`: `count` copies of one model.
 struct PartLine {
   std::string model;
-  std::string path;    ///< resolved absolute path; filled by the reader
-  std::string sha256;  ///< of the file's bytes as the reader saw them; empty: not known
+  std::string path;    ///< absolute path of the model file; filled in by the reader
+  std::string sha256;  ///< digest of the bytes of the model file that the reader saw; empty if not known
   std::optional<Unit> unit;
   double scale = 1.0;
   std::size_t count = 1;
@@ -97,16 +102,17 @@ struct PartLine {
 
 struct Pour {
   enum class Pattern {
-    rain,  ///< parts enter just above the heap as it grows
-    grid,  ///< the thesis's: all at once on a 3-D grid above the bin
+    rain,  ///< parts enter just above the heap while it grows
+    grid,  ///< all parts enter at once on a three-dimensional grid above the bin, as in the thesis
     given  ///< poses come with the parts or from an earlier scene
   };
   Pattern pattern = Pattern::rain;
-  /// How much is done before a scene counts as finished. Each includes those before it and costs more time.
+  /// How much is done before a scene counts as finished. Each value includes the ones before it and takes more time.
   enum class Finish {
-    settled,  ///< on soft contacts: parts overlap by up to 0.1 % of their diagonal
-    pressed,  ///< stiff contacts take the overlap out
-    probed  ///< verified on contacts without remembered forces and with less friction: nothing is about to tip or slip
+    settled,  ///< parts rest on soft contacts and overlap by up to 0.1 % of their diagonal
+    pressed,  ///< stiff contacts have removed the overlap
+    probed    ///< the heap stayed at rest on contacts without remembered forces and with less friction, so that no part
+              ///< is about to tip or slip
   };
   Finish finish = Finish::probed;
   double drop_height = 0.02;
@@ -123,7 +129,8 @@ const char* name_of(Pour::Finish finish);
 enum class SolverType { automatic, sphere, bullet };
 const char* name_of(SolverType type);
 
-/// Settings of Bullet. Lengths are in part sizes where noted: Bullet simulates a scaled world.
+/// Settings of the solver `bullet`. Bullet simulates a scaled world; lengths are relative to the size of the parts
+/// where the table of keys states it.
 struct BulletSettings {
   double time_step = 1.0 / 240.0;
   bool cut_steps = true;
@@ -135,7 +142,7 @@ struct BulletSettings {
   int max_hulls = 64;
 };
 
-/// The sphere solver as the thesis describes it; preset `thesis`.
+/// Settings of the sphere solver as the thesis describes it (preset `thesis`).
 struct ThesisSettings {
   double time_step = 0.01;
   int sub_steps = 1;
@@ -152,7 +159,8 @@ struct ThesisSettings {
   int contacts_per_sphere = 4;
 };
 
-/// The default sphere solver: surface samples of one part against the distance field of the other.
+/// Settings of the default solver `sphere`, which tests surface samples of one part against the distance field of the
+/// other.
 struct SphereSettings {
   double time_step = 1.0 / 400.0;
   bool cut_steps = true;
@@ -162,32 +170,36 @@ struct SphereSettings {
   int coarse_samples = 200;
   int fine_samples = 1000;
   double field_cell = 0.004;
-  std::size_t field_nodes = 8u << 20;  ///< no key: most nodes of a field, whose cell is enlarged for them;
-                                       ///< make_solver() lowers it for many models
-  /// Where it runs. automatic: where a standard heap takes less time, measured once; gpu: the same passes as GL
-  /// compute, many times slower on a software GL.
+  /// Not a key: the largest number of nodes of a distance field, whose cells are enlarged to meet it. make_solver()
+  /// reduces the number if there are many models.
+  std::size_t field_nodes = 8u << 20;
+  /// The device on which the solver runs. `automatic` selects the device on which a standard heap takes less time; this
+  /// is measured once. `gpu` runs the same passes as OpenGL compute shaders, which is many times slower if OpenGL is
+  /// implemented in software.
   enum class Device { automatic, cpu, gpu } device = Device::automatic;
 };
 
+/// The choice of a solver, and the settings of all solvers.
 struct SolverSettings {
   SolverType type = SolverType::automatic;
   enum class Preset {
-    standard,  ///< every scene meets the goals of accuracy
-    quick,     ///< the default sphere solver with settings that err by up to 1 % of a part, for a fraction of the time
-    thesis     ///< the thesis's sphere solver
+    standard,  ///< every scene meets the limits of accuracy
+    quick,     ///< the solver `sphere` with settings that cause errors of up to 1 % of the size of a part and take a
+               ///< fraction of the time
+    thesis     ///< the sphere solver of the thesis
   } preset = Preset::standard;
   BulletSettings bullet;
   ThesisSettings thesis;
   SphereSettings sphere;
 };
 
-/// structured_light and stereo: how deep the simulation goes.
+/// For structured_light and stereo: how closely the simulation follows the device.
 enum class Fidelity {
-  analytic,  ///< depth with the noise and the gaps that the device's formulas predict; fast
-  decoded    ///< the images themselves are made and evaluated as a device does; errors come out by themselves
+  analytic,  ///< depth, noise and missing pixels follow formulas that describe the device; fast
+  decoded    ///< the images of the device are simulated and evaluated as the device does; errors follow from the images
 };
 
-/// Source of patterns: of fringes for structured_light, of dots for stereo.
+/// The projector of fringes (structured_light) or of dots (stereo).
 struct Projector {
   std::optional<Pose> pose;
   double baseline = 0.2;
@@ -196,21 +208,23 @@ struct Projector {
   std::array<double, 5> distortion{};
 };
 
-/// laser_line: a sheet of light, the y-z plane of its frame, along z.
+/// For laser_line: a sheet of light in the y-z plane of the laser's frame, shining along z.
 struct Laser {
   std::optional<Pose> pose;
   double baseline = 0.2;
   double width_mm = 0.3;
 };
 
-/// laser_line: how camera and laser move over the bin together; their poses are those at the centre of their path.
+/// For laser_line: how the camera and the laser move over the bin together. Their poses in the request are those at the
+/// centre of the path.
 struct Scan {
   Vec3 direction = Vec3::UnitX();
   double step = 0.0005;
   int profiles = 1000;
 };
 
-/// Further places from which a sensor sees the same heap. config/ makes a sensor of each, and leaves this empty.
+/// Further poses from which a sensor sees the same heap. `config` makes one sensor of each pose and leaves this struct
+/// empty.
 struct Views {
   std::vector<Pose> poses;
   std::size_t count = 0;
@@ -219,7 +233,7 @@ struct Views {
   Vec3 target = Vec3::Zero();
 };
 
-/// A range sensor. Frame: optical (x right, y down, z forward).
+/// A range sensor. Its frame is an optical frame (x right, y down, z forward).
 struct Sensor {
   std::string name = "camera";
   std::string view_of;
@@ -238,14 +252,15 @@ struct Sensor {
   Laser laser;
   Scan scan;
   ImagerSettings imager;
-  ModelSettings settings;  ///< of the models, by type: settings.of<StereoSettings>()
+  ModelSettings settings;  ///< settings of the sensor models, by type; for example settings.of<StereoSettings>()
   std::optional<int> bounces;
   int indirect_samples = 16;
   bool noise = true;
-  double depth_scale = 1e-4;  ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
+  double depth_scale = 1e-4;  ///< not a key: metres per count of the 16-bit depth images, set together with the poses
+                              ///< (sensor/resolve.hpp)
 };
 
-/// Limits of an accepted scene; the report names those that were exceeded.
+/// The limits that an accepted scene must meet. The report names those that were exceeded.
 struct Acceptance {
   double penetration = 0.01;
   double gap = 0.005;
@@ -258,6 +273,7 @@ struct Acceptance {
   bool unstable = false;
 };
 
+/// All that determines the scenes of a job.
 struct Request {
   std::uint64_t seed = 0;
   std::size_t scenes = 1;
@@ -271,24 +287,27 @@ struct Request {
   std::vector<Gripper> grippers;
   std::size_t prove = 0;
   bool prove_all = false;
-  double lift_cone = 0.0;        ///< rad: of the lifts of grasped parts against the vertical
-  double slight_overlap = 0.03;  ///< share of a part's footprint: those covered by no more count as free to lift
+  /// rad: the largest angle between the lift of a gripped part and the vertical.
+  double lift_cone = 0.0;
+  /// A part counts as free to lift if other parts cover at most this share of its footprint.
+  double slight_overlap = 0.03;
   std::string rig;
   Acceptance accept;
   std::optional<double> seconds;
   bool drift_check = false;
   double memory_budget = 4e9;
-  std::string text_sha256;  ///< hash of the request as read; filled by the reader
+  std::string text_sha256;  ///< digest of the text of the request; filled in by the reader
 
+  /// Returns the number of parts of all lines together.
   std::size_t part_count() const;
 };
 
-/// Sets what a preset stands for, over the whole request; a field set afterwards stays. Preset::standard and thesis
-/// change nothing but themselves.
+/// Sets the fields of the request that a preset determines. Fields that are set afterwards keep their new values. The
+/// presets `standard` and `thesis` change only the field `preset` itself.
 void apply(SolverSettings::Preset preset, Request& request);
 
-/// Throws one input Error for the first invalid field (negative count, NaN, friction < 0, ...). Of sensors it only
-/// counts that there are some: check_sensors() in sensor/sensor_model.hpp knows their models.
+/// Throws one input Error for the first invalid field (a negative count, NaN, friction < 0, ...). The settings of
+/// sensors are not tested here but by check_sensors() (sensor/sensor_model.hpp), which knows the sensor models.
 void check(const Request& request);
 
 }  // namespace bin_scenes

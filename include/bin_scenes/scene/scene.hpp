@@ -1,4 +1,5 @@
-/// A finished scene: true poses, states, report.
+/// A finished scene: the true poses and states of all parts, the contacts between them, and the report. It is plain
+/// data. Heap::scene() makes it, quality and sensors complete it, and output and ROS publish it.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -11,38 +12,44 @@
 
 namespace bin_scenes {
 
+/// The state of a part at the end of the simulation.
 enum class PartState { resting, moving, escaped, fixed, not_poured, removed };
 const char* name_of(PartState state);
-/// Whether the part is in the scene. A part that was never poured, or was taken out, has no pose and is in no image.
+/// Whether the part is in the scene. A part that was never poured, or that was removed, has no pose and appears in no
+/// image.
 inline bool is_there(PartState state) {
   return state != PartState::not_poured && state != PartState::removed;
 }
 
+/// One part of a scene.
 struct ScenePart {
-  int id = 0;            ///< stable across every output
+  int id = 0;            ///< the same in every output and for the whole life of a heap
   std::size_t line = 0;  ///< index into Request::parts
-  std::string model;     ///< as the user wrote it
-  Pose pose;  ///< model file's own frame (scaled to metres) in the bin frame; Pose::none() if not poured or removed
-  Twist velocity;  ///< of the centre of mass, when the simulation ended
+  std::string model;     ///< the model file as the user wrote it
+  Pose pose;  ///< from the frame of the model file (scaled to metres) to the bin frame; Pose::none() if the part was
+              ///< not poured or was removed
+  Twist velocity;  ///< of the centre of mass at the end of the simulation, bin frame
   PartState state = PartState::moving;
-  std::map<std::string, double> visible_fraction;  ///< by sensor name
+  std::map<std::string, double>
+      visible_fraction;  ///< share of the part's silhouette that each sensor sees, by sensor name
 };
 
-/// A contact of the finished scene. A part lies on another one, or on the bin.
+/// A contact of the finished scene, at which one part touches another part or the bin (bin frame, SI).
 struct SceneContact {
-  int a = -1, b = -1;  ///< ids; b is -1 for the bin
+  int a = -1, b = -1;  ///< ids of the parts; b is -1 for the bin
   Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();  ///< from a to b
-  Vec3 force = Vec3::Zero();    ///< N, on b with friction; on a acts its opposite
+  Vec3 normal = Vec3::UnitZ();  ///< unit vector from a to b
+  Vec3 force = Vec3::Zero();    ///< N, the force on b including friction; the opposite force acts on a
 };
 
+/// A scene with the seed and index that identify it.
 struct Scene {
   std::uint64_t seed = 0;
   std::size_t index = 0;
-  std::vector<std::string> model_sha256;  ///< by part line: of the model file's bytes; empty: not known
+  std::vector<std::string> model_sha256;  ///< digests of the model files, by part line; empty if not known
   std::vector<ScenePart> parts;
   std::vector<SceneContact> contacts;  ///< empty if the solver reports no forces
-  std::vector<Sensor> sensors;         ///< with pose and K filled in
+  std::vector<Sensor> sensors;         ///< with poses and camera matrices filled in
   Report report;
 };
 

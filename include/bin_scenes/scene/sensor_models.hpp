@@ -1,7 +1,7 @@
-/// Settings of the built-in sensor models: light and camera chip (the geometry is in Sensor, scene/request.hpp). Their
-/// meaning, unit, range and the value that switches an effect off are in the tables of keys (docs/use/request.md). A
-/// model of your own keeps its settings in its own file (sensor/sensor_model.hpp). `noise: false` of a sensor switches
-/// off all effects that are random.
+/// Settings of the built-in sensor models: light sources, cameras and decoding. The placement and the lens of a sensor
+/// are in Sensor (scene/request.hpp). The meaning, unit and range of each value, and the value that switches an effect
+/// off, are in the tables of keys (docs/use/request.md). A sensor model of your own keeps its settings in its own file
+/// (sensor/sensor_model.hpp). The key `noise: false` of a sensor switches all random effects off.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@ namespace bin_scenes {
 
 /// Treatment of a pixel whose footprint crosses a depth edge.
 enum class MixedPixels {
-  remove,  ///< invalid, code 6: the device's filter finds it
-  keep     ///< delivered: a point that flies between foreground and background
+  remove,  ///< the pixel becomes invalid with code 6, as if the filter of the device had found it
+  keep     ///< the pixel keeps a depth between foreground and background
 };
 
-/// The chip of the camera. A signal is a share of the full well: 0 dark, 1 saturated.
+/// The image sensor of the camera. A signal is a share of the full-well capacity: 0 is dark, 1 is saturated.
 struct ImagerSettings {
   double exposure = 0.8;
   double reference_distance = 0.0;
@@ -26,7 +26,7 @@ struct ImagerSettings {
   std::vector<double> exposures;
 };
 
-/// Fringe projection: a phase shift of `steps` images, periods identified by a Gray code.
+/// Fringe projection: `steps` phase-shifted images, and a Gray code that identifies the period.
 struct StructuredLightSettings {
   int steps = 8;
   double period = 16.0;
@@ -39,17 +39,18 @@ struct StructuredLightSettings {
   double edge_step = 0.005;
 };
 
-/// A sheet of light and a camera that finds its line in every column.
+/// Laser triangulation: a sheet of light, and a camera that finds the line in each column of its image.
 struct LaserLineSettings {
   double fan = 0.9;
   double power = 0.5;
   double blur = 0.7;
   double speckle = 0.15;
   double min_signal = 0.02;
-  enum class Peak { strongest, nearest } peak = Peak::strongest;  ///< which of two lines in a column is reported
+  enum class Peak { strongest, nearest } peak = Peak::strongest;  ///< which of two lines in one column is reported
 };
 
-/// Two cameras side by side; the second has the first one's lens and looks in the same direction (rectified).
+/// Two cameras side by side. The second camera has the lens of the first and looks in the same direction, so that the
+/// images are rectified.
 struct StereoSettings {
   double baseline = 0.1;
   int disparities = 128;
@@ -63,8 +64,8 @@ struct StereoSettings {
   double min_signal = 0.02;
 };
 
-/// Axial and lateral noise after Nguyen, Izadi, Lovell 2012, "Modeling Kinect Sensor Noise for Improved 3D
-/// Reconstruction and Tracking", whose figures are the defaults.
+/// Time of flight with axial and lateral noise according to Nguyen, Izadi, Lovell 2012, "Modeling Kinect Sensor Noise
+/// for Improved 3D Reconstruction and Tracking". The default values are those of the paper.
 struct TimeOfFlightSettings {
   double axial = 0.0012;
   double axial_growth = 0.0019;

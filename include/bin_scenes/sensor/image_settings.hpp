@@ -1,4 +1,5 @@
-/// Settings of the model `image`: a camera that takes grey or colour images by the light of lamps.
+/// Settings of the sensor model `image`: a camera that takes grey or colour pictures in the light of lamps. The model
+/// (src/sensor/models/image_model.cpp) traces paths of light through the scene; it measures no depth.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -9,34 +10,36 @@
 
 namespace bin_scenes {
 
-/// A light source of an image. The light of several lamps adds up, and a lamp itself casts no shadow.
+/// A light source. The light of several lamps adds up, and a lamp itself casts no shadow.
 struct ImageLamp {
   enum class Type {
-    area,      ///< a rectangle that shines to one side
-    ring,      ///< a flat ring, or a disk if `inner` is 0, that shines to one side
-    dome,      ///< the sky: light from everywhere that nothing blocks
-    projector  ///< white light of Sensor::projector
+    area,      ///< a rectangle that emits light to one side
+    ring,      ///< a flat ring, or a disk if `inner` is 0, that emits light to one side
+    dome,      ///< the sky: light from every direction that nothing blocks
+    projector  ///< white light from Sensor::projector
   } type = Type::area;
-  std::optional<Pose> pose;    ///< area, ring: centre in the bin frame, light leaves along z; none: the camera's
-  double radiance = 1.0;       ///< only ratios between lamps count; of a projector that of a white surface at 1 m
-  Vec3 colour = Vec3::Ones();  ///< times radiance, of red, green and blue
+  std::optional<Pose>
+      pose;  ///< area, ring: centre in the bin frame, with light leaving along z; none: the pose of the camera
+  /// Only the ratios between lamps matter. For a projector, it is the radiance of a white surface at 1 m.
+  double radiance = 1.0;
+  Vec3 colour = Vec3::Ones();  ///< factors of the radiance for red, green and blue
   double width = 0.3;          ///< area: m along x
   double height = 0.3;         ///< area: m along y
   double outer = 0.06;         ///< ring: radius (m)
   double inner = 0.045;        ///< ring: radius (m)
-  double horizon = 0.5;        ///< dome: radiance at the horizon and below it / that of the zenith
-  std::string picture;         ///< dome: file of an equirectangular picture; none: even from horizon to zenith
-  std::string picture_sha256;  ///< picture: of the file's bytes as the reader saw them; empty: not known
-  double turn = 0.0;           ///< dome: rad, of the picture about the vertical
+  double horizon = 0.5;        ///< dome: radiance at the horizon and below it / radiance at the zenith
+  std::string picture;  ///< dome: file of an equirectangular picture; none: an even gradient from horizon to zenith
+  std::string picture_sha256;  ///< digest of the bytes of that file which the reader saw; empty if not known
+  double turn = 0.0;           ///< dome: rad, rotation of the picture about the vertical
 };
 
-/// Kept in Sensor::settings.
+/// All settings of the model. The struct is stored in Sensor::settings.
 struct ImageSettings {
-  std::vector<ImageLamp> lamps;  ///< none: a dome
-  int samples = 16;              ///< paths of light a pixel, a power of two; more = less grain, linear cost
-  bool denoise = false;          ///< takes the grain of few samples out
-  bool colour = false;           ///< red, green and blue instead of grey
-  int bits = 8;                  ///< of a count in files and messages, 8 or 16
+  std::vector<ImageLamp> lamps;  ///< none: one dome
+  int samples = 16;      ///< paths of light per pixel, a power of two; more paths reduce the noise at linear cost
+  bool denoise = false;  ///< whether Monte Carlo noise at low sample counts is removed
+  bool colour = false;   ///< red, green and blue instead of grey
+  int bits = 8;          ///< bits of a count in files and messages, 8 or 16
 };
 
 }  // namespace bin_scenes

@@ -1,4 +1,5 @@
-/// From the view of a camera to the report of a sensor. src/sensor/models has one file for each model.
+/// From the view of a camera to the image that a sensor reports. This header contains the inputs that all sensor models
+/// share, and measure(), which calls the model of a sensor. src/sensor/models has one file for each model.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"
@@ -9,20 +10,24 @@
 
 namespace bin_scenes {
 
+/// The optical surfaces of a scene.
 struct Surfaces {
   std::vector<Surface> lines;  ///< by part line
   Surface bin;
-  /// What distinguishes the surface of one part from that of another part of its line.
+  /// The position of a part, and the key of its texture: they distinguish its surface from those of other parts of the
+  /// same line.
   struct Place {
-    Pose to_part;       ///< from the bin frame to the part's
-    Vec3 longest;       ///< unit, axis in the part's frame
-    std::uint64_t key;  ///< of its texture
+    Pose to_part;       ///< from the bin frame to the frame of the part
+    Vec3 longest;       ///< unit vector, longest axis of the part in the part's frame
+    std::uint64_t key;  ///< key of the random numbers of its texture
   };
-  std::vector<Place> places = {};  ///< by label; none: no texture, and Surface::along is in the bin frame
+  /// By label. Empty: surfaces have no texture, and Surface::along is in the bin frame.
+  std::vector<Place> places = {};
 
+  /// Returns the surface of a part line, or of the bin if `line` is -1.
   const Surface& of(std::int32_t line) const { return line < 0 ? bin : lines[static_cast<std::size_t>(line)]; }
-  /// The surface at a point, its `along` in the bin frame.
-  /// @param own  room for it where it differs from of(line)
+  /// Returns the surface at a point (bin frame), with `along` in the bin frame.
+  /// @param own  storage for the surface if it differs from of(line)
   const Surface& at(std::int32_t line, std::uint16_t label, const Vec3& point, Surface& own) const {
     const Surface& even = of(line);
     if ((!even.texture.any() && even.anisotropy <= 0.0) || label >= places.size()) return even;
@@ -33,28 +38,29 @@ struct Surfaces {
  private:
   static Surface own_surface(const Surface& even, const Place& place, const Vec3& point);
 };
-/// Surfaces of the request's lines, without the textures of single parts.
+/// Returns the surfaces of the part lines, without the textures of single parts.
 Surfaces surfaces_of(const Request& request);
-/// The same with the texture of each part of the scene, which is the same for all sensors.
+/// Returns the surfaces with the texture of each part of the scene. The texture is the same for all sensors.
 Surfaces surfaces_of(const Scene& scene, const LoadedRequest& loaded);
 
-/// The key from which all random numbers of a sensor in a scene are drawn.
+/// The key from which all random numbers of a sensor in a scene are derived.
 struct Draw {
   std::uint64_t seed = 0;
   std::size_t scene = 0;   ///< index
-  std::size_t sensor = 0;  ///< number in the request
+  std::size_t sensor = 0;  ///< index in the request
 };
 
-/// Makes the measured and the true images; the caller fills in counts and silhouettes. @param sensor  resolved()
-/// @param view  of the sensor's camera, near to far; its images may be taken over
+/// Makes the measured and the true images. The caller fills in pixel counts and silhouettes afterwards.
+/// @param view  view of the sensor's camera from near to far; its images may be moved out of it
+/// @param sensor  as returned by resolved()
 RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                    const Draw& draw);
 
-/// Standard deviation of the depth (m) of a matte plate on the optical axis; 0 of `ideal`, NaN where nothing is
-/// measured.
-/// @param sensor     resolved()
+/// Returns the predicted standard deviation of the depth (m) of a matte plate on the optical axis: 0 for the model
+/// `ideal`, NaN if nothing is measured.
+/// @param sensor     as returned by resolved()
 /// @param distance   m along the optical axis
-/// @param incidence  rad, by which the plate is turned about the camera's x
+/// @param incidence  rad, angle by which the plate is turned about the camera's x axis
 double predicted_sigma(const Sensor& sensor, double distance, double incidence, double albedo);
 
 }  // namespace bin_scenes

@@ -1,4 +1,5 @@
-/// Ray casting against the true meshes of a scene, shared by all cameras, projectors and lasers.
+/// Ray casting against the true meshes of a scene, shared by all cameras, projectors and lasers. It returns geometry
+/// only; what a sensor makes of it is the task of the sensor models.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
@@ -11,23 +12,25 @@
 namespace bin_scenes {
 
 /// A ray in the bin frame (m). Distances along the ray are in units of its direction, which need not have unit length:
-/// with a direction of z = 1 in an optical frame they are depths.
+/// with a direction whose z is 1 in an optical frame, they are depths.
 struct Ray {
   Vec3 origin = Vec3::Zero();
-  Vec3 direction = Vec3::UnitZ();  ///< not finite: hits nothing
+  Vec3 direction = Vec3::UnitZ();  ///< a direction that is not finite hits nothing
   double near = 0.0, far = 1e9;
 };
 
+/// The first intersection of a ray with a surface.
 struct Hit {
-  double distance;         ///< in units of the direction; NaN: nothing was hit
-  Vec3 normal;             ///< of the face hit, unit, bin frame, towards the ray's origin
-  std::uint16_t label;     ///< 0 of the bin and of nothing, id + 1 of a part
-  std::int32_t line;       ///< index into Request::parts; -1 of the bin and of nothing
-  std::uint32_t triangle;  ///< of the part's or bin's mesh
-  std::uint32_t body = 0;  ///< of Scenery's own numbers
+  double distance;         ///< in units of the direction; NaN if nothing was hit
+  Vec3 normal;             ///< unit normal of the face in the bin frame, towards the origin of the ray
+  std::uint16_t label;     ///< id + 1 of the part; 0 for the bin and for nothing
+  std::int32_t line;       ///< index into Request::parts; -1 for the bin and for nothing
+  std::uint32_t triangle;  ///< index in the mesh of the part or the bin
+  std::uint32_t body = 0;  ///< index of the body in the scenery (Scenery::body())
 };
 
-/// The search trees of models. A tree is made once for each model and kept while the model lives. Thread-safe.
+/// The search trees of models. A tree is built once for each model and kept as long as the model lives. May be used by
+/// several threads.
 class SceneryCache {
  public:
   SceneryCache();
@@ -39,32 +42,34 @@ class SceneryCache {
   std::unique_ptr<State> state_;
 };
 
-/// All surfaces of a scene that light can meet. They are placed once and serve any number of views and threads. Parts
+/// All surfaces of a scene that light can reach. They are placed once and serve any number of views and threads. Parts
 /// that were not poured, or whose pose is not finite, are left out.
 ///
-/// Embree finds the triangle in single precision; distance and normal are those of the triangle's plane in double.
+/// Embree finds the triangle in single precision; distance and normal are those of the triangle's plane in double
+/// precision.
 class Scenery {
  public:
-  /// Throws an input Error if a part's id has no 16-bit label.
+  /// Throws an input Error if the id of a part is too large for a 16-bit label.
   Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& cache);
   ~Scenery();
   Scenery(Scenery&&) noexcept;
 
-  /// Whether neighbouring rays have similar directions; a hint that changes the speed only.
+  /// Whether neighbouring rays have similar directions. It is a hint that influences the speed only.
   enum class Rays { side_by_side, scattered };
-  /// First hit of each of `count` rays.
+  /// Finds the first hit of each of `count` rays.
   void first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kind = Rays::side_by_side) const;
-  /// The hit of a ray on a face that is known already. @param about  approximate distance of the hit
+  /// Returns the hit of a ray on a face that is known already. @param about  approximate distance of the hit
   Hit hit(const Ray& ray, std::uint32_t face, double about) const;
-  /// Normal at a point that was hit, of the surface that the triangles stand for: it turns evenly across edges at which
-  /// faces meet in less than 35 degrees. Towards the side that was hit.
+  /// Returns the normal of the smooth surface that the triangles approximate, at a point that was hit: it changes
+  /// continuously across edges whose faces differ by less than 35 degrees. It points to the side that was hit.
   Vec3 smooth_normal(const Hit& hit, const Vec3& point) const;
-  /// blocked[i] = 1 if anything lies between `near` and `far` of ray i, else 0.
+  /// Sets blocked[i] to 1 if a surface is between `near` and `far` of ray i, and to 0 otherwise.
   void blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count, Rays kind = Rays::side_by_side) const;
-  /// The same as if Scene::parts[part] were alone in the scene; all 0 if that part is not in the scene.
+  /// The same test as if Scene::parts[part] were alone in the scene; all results are 0 if that part is not in the
+  /// scene.
   void blocked_by(std::size_t part, const Ray* rays, std::uint8_t* blocked, std::size_t count) const;
 
-  /// Mesh and pose (bin frame) of Scene::parts[part]; empty if the part is not in the scene.
+  /// The mesh and the pose (bin frame) of Scene::parts[part]; empty if the part is not in the scene.
   struct Placed {
     const Mesh* mesh = nullptr;
     Pose pose;
@@ -73,38 +78,39 @@ class Scenery {
   std::size_t part_count() const;
   Placed part(std::size_t part) const;
 
-  /// The plane of a triangle: unit normal, and its product with any point.
+  /// The plane of a triangle: its unit normal, and the dot product of the normal with any point of the plane (m).
   struct Plane {
     Vec3 normal;
     double offset;
   };
-  /// One placed mesh: a part or the bin.
+  /// A placed mesh: a part or the bin.
   struct Body {
     const Mesh* mesh = nullptr;
-    const std::vector<Plane>* planes = nullptr;  ///< of the mesh's triangles, in its frame
-    bool closed = false;                         ///< from outside only the fronts of triangles are visible
-    std::uint32_t first_face = 0;                ///< that of its triangle 0
+    const std::vector<Plane>* planes = nullptr;  ///< planes of the triangles, in the frame of the mesh
+    bool closed = false;           ///< whether only the front sides of the triangles can be seen from outside
+    std::uint32_t first_face = 0;  ///< face number of triangle 0
     Pose pose;
-    std::int64_t part = -1;  ///< index into Scene::parts; -1: the bin
+    std::int64_t part = -1;  ///< index into Scene::parts; -1 for the bin
     std::uint16_t label = 0;
     std::int32_t line = -1;
   };
   std::size_t body_count() const;
   Body body(std::size_t body) const;
 
-  /// Faces number the triangles of all bodies consecutively, body after body.
+  /// A face is a triangle of a body. Faces are numbered consecutively over all bodies.
   static constexpr std::uint32_t no_face = ~0u, floor_face = no_face - 1;
   struct Face {
     std::uint32_t body = no_face, triangle = 0;
     Vec3 normal = Vec3::Zero();  ///< outward, bin frame
-    bool outermost = false;      ///< all of the body lies behind its plane
+    bool outermost = false;      ///< whether the whole body is behind the plane of the face
     bool on_floor = false;
   };
+  /// Returns the face with a number; its body is no_face for no_face.
   Face face(std::uint32_t face) const;
-  /// The face that a ray hit.
+  /// Returns the number of the face that a ray hit.
   std::uint32_t face_of(const Hit& hit) const;
 
-  /// Whether an endless floor lies at z = 0.
+  /// Whether there is an endless floor at z = 0.
   bool on_floor() const;
 
  private:

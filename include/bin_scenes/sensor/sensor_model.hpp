@@ -1,7 +1,7 @@
-/// The interface of a sensor model, and the list of all models. A model is one file that ends in its SensorModel:
-/// built-in ones are src/sensor/models/NAME_model.cpp, listed in src/sensor/CMakeLists.txt; a program may register
+/// The interface of a sensor model, and the list of all models. A model is one file that ends with its SensorModel.
+/// Built-in models are src/sensor/models/NAME_model.cpp, listed in src/sensor/CMakeLists.txt; a program may register
 /// models of its own. Request files, `--set`, suggestions, docs/use/request.md, check_sensors(), messages, scene.json,
-/// frames, outputs and `bin_scenes sensor` all use this table.
+/// frames, outputs and `bin_scenes sensor` all use this list, so that nothing else must be changed for a new model.
 #pragma once
 
 #include "bin_scenes/scene/key.hpp"
@@ -15,10 +15,10 @@
 
 namespace bin_scenes {
 
-/// An operation on the keys of a model's settings: they are read, written, checked or listed.
+/// An operation on the keys of a model's settings: reading, writing, checking or listing them.
 class KeyVisitor {
  public:
-  /// A map of further keys, which `visit_keys` visits.
+  /// Visits a map of further keys; `visit_keys` visits these.
   virtual void section(const Key& key, const std::function<void(KeyVisitor&)>& visit_keys) = 0;
   virtual void field(const Key& key, double& value) = 0;
   virtual void field(const Key& key, int& value) = 0;
@@ -40,51 +40,56 @@ class KeyVisitor {
   ~KeyVisitor() = default;
 };
 
+/// One sensor model: its names, its functions, and the properties of its device.
 struct SensorModel {
-  const char* name;  ///< of `model`, and of the section of its settings
-  const char* text;  ///< of that section
-  /// All keys of its settings, which it takes from the ModelSettings by their type. None: it has no section.
+  const char* name;  ///< value of the key `model`, and name of the section of its settings
+  const char* text;  ///< description of that section
+  /// Visits all keys of the model's settings, which it takes from the ModelSettings by their type. Null: the model has
+  /// no section.
   void (*visit)(KeyVisitor& visitor, ModelSettings& settings);
-  /// Throws an input Error that names a key below `key` for mistakes that the ranges of single keys do not exclude. It
+  /// Throws an input Error that names a key below `key`, for mistakes that the ranges of single keys do not exclude. It
   /// is called for every sensor, whatever its model is, so that a mistake is found before the model is selected.
   void (*check)(const Sensor& sensor, const std::string& key);
-  /// The same for a sensor of this model that is resolved().
+  /// The same for a resolved() sensor of this model, whose poses are known.
   void (*check_places)(const Sensor& sensor, const std::string& where);
-  /// Measured and true images. @param view  of the sensor's camera; its images may be taken over
+  /// Makes the measured and the true images. @param view  view of the sensor's camera; its images may be moved out of
+  /// it
   RangeImage (*measure)(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                         const Draw& draw);
-  /// predicted_sigma() of a sensor with noise.
+  /// The value of predicted_sigma() for a sensor with noise.
   double (*predicted_sigma)(const Sensor& sensor, double distance, double incidence, double albedo);
 
   enum class Image {
-    pinhole,  ///< a pixel's point lies on its ray
-    profiles  ///< rows are profiles of a scan: Scan::profiles of them
+    pinhole,  ///< the point of a pixel is on its ray
+    profiles  ///< the rows are the Scan::profiles profiles of a scan
   } image = Image::pinhole;
-  // The devices beside the camera's lens whose settings and places it uses.
+  // Which further devices, settings and effects the model uses.
   bool imager = false;
   bool projector = false;
-  bool laser = false;     ///< and Scan
-  bool fidelity = false;  ///< it has both
-  bool indirect = false;  ///< it sees light that met other surfaces
-  int bounces = 0;        ///< Sensor::bounces unless given
+  bool laser = false;     ///< the laser, and Scan
+  bool fidelity = false;  ///< it supports both values of Fidelity
+  bool indirect = false;  ///< it sees light that was reflected by other surfaces
+  int bounces = 0;        ///< default of Sensor::bounces
   bool exact = false;     ///< it measures the truth: without noise, with true normals
-  /// Turns depths or points that `device` measured into those that it reports with the calibration of `believed`. None:
-  /// the range along a pixel's ray stays.
+  /// Converts the depths or points that `device` measured into those that it reports with the calibration of
+  /// `believed`. Null: the range along the ray of a pixel stays the same.
   void (*report)(RangeImage& image, const Sensor& device, const Sensor& believed) = nullptr;
 };
 
-/// In the order of messages and reference.
+/// Returns all models in the order of messages and reference.
 const std::vector<const SensorModel*>& sensor_models();
-/// The model of that name. Throws an input Error for an unknown name.
+/// Returns the model of that name. Throws an input Error for an unknown name.
 const SensorModel& sensor_model(const std::string& name);
-/// Adds a model, which must live until the end of the program. Call it before the first request is read and from one
-/// thread only, for instance in the initialiser of a constant. Returns true; throws an input Error if the name exists.
+/// Adds a model, which must exist until the end of the program. Call it from one thread only and before the first
+/// request is read, for instance in the initialiser of a constant. Returns true. Throws an input Error if the name
+/// exists.
 bool register_sensor_model(const SensorModel& model);
 
-/// The light that a sensor's model uses beside the camera: "projector" and "laser" with their poses, resolved().
+/// Returns the light sources that a sensor's model uses: "projector" and "laser" with their poses. @param sensor  as
+/// returned by resolved()
 std::vector<std::pair<const char*, Pose>> light_of(const Sensor& sensor);
 
-/// Throws an input Error for the first key of a sensor that is impossible.
+/// Throws an input Error for the first key of a sensor whose value is impossible.
 void check_sensors(const std::vector<Sensor>& sensors);
 
 }  // namespace bin_scenes

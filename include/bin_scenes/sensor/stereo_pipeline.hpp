@@ -1,6 +1,6 @@
-/// What a stereo camera does between its two images and depth, kept in Sensor::settings beside StereoSettings; and the
-/// unit of depth of any range camera. Meaning, unit and range of each value are in the tables of keys
-/// (docs/use/request.md).
+/// The processing between the two images of a stereo camera and its depth, and the number format of depth of any range
+/// camera. The structs are stored in Sensor::settings beside StereoSettings (scene/sensor_models.hpp). The meaning,
+/// unit and range of each value are in the tables of keys (docs/use/request.md).
 #pragma once
 
 namespace bin_scenes {
@@ -12,7 +12,7 @@ enum class StereoMatcher {
 };
 
 /// Edge-preserving recursive smoothing of disparities (Gastal, Oliveira 2011, "Domain transform for edge-aware image
-/// and video processing"), as the post-processing of stereo cameras has it.
+/// and video processing"), which is part of the post-processing of stereo cameras.
 struct SpatialFilter {
   double alpha = 0.5;
   double delta = 0.625;

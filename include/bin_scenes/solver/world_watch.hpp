@@ -1,9 +1,10 @@
-/// Observation of a world by the device that simulates it: who rests, who has left the bin, and what energy was gained.
-/// The host reads a few counts for a world; states of bodies only when it asks for them. A solver whose states are in
-/// the host's memory has no such watch: there, HeapCore observes states with RestWatch and EnergyAudit.
+/// Observation of a world by the device that simulates it: which bodies are at rest, which have left the bin, and how
+/// much energy was gained. The host then reads a few counts for each world, and reads the states of the bodies only
+/// when it asks for them. A solver whose states are in the memory of the host has no WorldWatch: there, HeapCore
+/// (src/pour) observes the states with RestWatch and EnergyAudit.
 ///
-/// An observation follows the steps of a begin() for which it was asked. Observations are numbered by the caller, from
-/// 1 on and ascending; times stay with the caller.
+/// An observation takes place at the end of the begin() for which it was requested. The caller numbers its observations
+/// 1, 2, ... in ascending order, and keeps their times.
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"
@@ -15,57 +16,63 @@
 
 namespace bin_scenes {
 
-/// What holds for a world from its beginning to its end.
+/// Rules that are constant for a world.
 struct WatchRules {
-  Vec3 lower, upper;       ///< m: a centre of mass beyond these has left the bin; may be infinite
-  double rest_move = 0.0;  ///< diagonals of the part: RestWatch::Limits::move
+  Vec3 lower, upper;  ///< m: a body whose centre of mass is beyond these bounds has left the bin; they may be infinite
+  double rest_move = 0.0;  ///< RestWatch::Limits::move in diagonals of the part
   double rest_turn = 0.0;  ///< rad
 };
 
-/// What the next begin() is to end with.
+/// What to observe at the end of the next begin().
 struct WatchAsk {
-  std::uint32_t observation = 0;         ///< its number; 0: none
-  double seconds = 0.0;                  ///< since the last observation
-  bool rest_anew = false;                ///< no pose of before counts
-  bool energy_anew = false;              ///< all energies begin with this begin(), and no worst of before counts
-  bool driven = false;                   ///< EnergyAudit::observe()
-  bool states = false;                   ///< states are read, too
-  std::array<std::uint32_t, 4> since{};  ///< bodies that moved in or after each of these observations are counted
-  std::uint32_t rested = 0;              ///< and those that moved after this one
+  std::uint32_t observation = 0;  ///< number of the observation; 0: none
+  double seconds = 0.0;           ///< s since the last observation
+  bool rest_anew = false;         ///< the observation of rest starts again: no earlier pose counts
+  bool energy_anew = false;  ///< the observation of energy starts again with this begin(): no earlier energy and no
+                             ///< earlier maximum counts
+  bool driven = false;  ///< whether moving fixed bodies or a moving frame may have given energy to the bodies since the
+                        ///< last observation (EnergyAudit::observe())
+  bool states = false;  ///< whether the states of the bodies are read as well
+  std::array<std::uint32_t, 4>
+      since{};               ///< for each of these observations, the bodies that moved in it or later are counted
+  std::uint32_t rested = 0;  ///< bodies that moved after this observation are counted as well
 };
 
-/// Counts of the moving bodies that are in.
+/// Counts of the movable bodies that are present.
 struct WatchSeen {
   std::uint32_t observation = 0;
-  std::size_t outside = 0;              ///< have left the bin, and are counted nowhere else
-  std::size_t fast = 0;                 ///< move as fast as falling ones
-  std::size_t awake = 0, unrested = 0;  ///< unrested: moved after WatchAsk::rested
+  std::size_t outside = 0;              ///< bodies that have left the bin; the other counts do not include them
+  std::size_t fast = 0;                 ///< bodies that move as fast as falling ones
+  std::size_t awake = 0, unrested = 0;  ///< unrested: bodies that moved after WatchAsk::rested
   std::array<std::size_t, 4> moved{};   ///< by WatchAsk::since
-  bool states = false;                  ///< states were read
+  bool states = false;                  ///< whether the states were read
 };
 
-/// Of one body, as it was read last.
+/// The last known observation of one body.
 struct WatchedBody {
-  std::uint32_t moved = 0;  ///< last observation in which it was not near the pose before; 0: never observed
-  bool outside = false;     ///< it has left the bin
+  std::uint32_t moved = 0;  ///< number of the last observation in which the body had moved; 0: never observed
+  bool outside = false;     ///< whether it has left the bin
 };
 
-/// The worst since energies began anew, as it was read last. Times are numbers of observations.
+/// The largest gains of energy since their observation started, as last read. Times are numbers of observations.
 struct WatchedEnergy {
   EnergyReport parts;
   WorstReport::EnergyGain all;
 };
 
+/// Observes the worlds of one solver.
 class WorldWatch {
  public:
   virtual ~WorldWatch() = default;
   virtual void set_rules(WorldId world, const WatchRules& rules) = 0;
-  /// A body was put in anew: its energy begins with the state that it was inserted with.
+  /// States that a body was inserted: its energy starts with the state with which it was inserted.
   virtual void enter(WorldId world, std::size_t body) = 0;
+  /// Requests an observation at the end of the next begin().
   virtual void ask(WorldId world, const WatchAsk& ask) = 0;
-  /// Of the last observation, after finish().
+  /// Returns the counts of the last observation. Valid after finish().
   virtual const WatchSeen& seen(WorldId world) const = 0;
-  /// Makes states(), asleep(), and what follows here those of now. It waits for the device.
+  /// Reads the worlds from the device and waits for it. Afterwards states(), asleep(), bodies() and energy() are up to
+  /// date.
   virtual void read(const std::vector<WorldId>& worlds) = 0;
   virtual const std::vector<WatchedBody>& bodies(WorldId world) const = 0;
   virtual WatchedEnergy energy(WorldId world) const = 0;
