@@ -1,5 +1,6 @@
-// Indices in a dispatch whose groups may be folded over two axes (gl/program.hpp, folded_groups). Macros, because
-// gl_WorkGroupSize is known only after the layout line of the file that includes this.
+// The index of an invocation or group in a dispatch whose groups may be folded over two axes (gl/program.hpp,
+// folded_groups). They are macros, because gl_WorkGroupSize is known only after the layout line of the file that
+// includes this header.
 #ifndef __cplusplus
 #define group_index() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
 #define thread_index() (group_index() * gl_WorkGroupSize.x + gl_LocalInvocationIndex)

@@ -1,6 +1,7 @@
-// What GLSL and C++ call differently. Code in shaders/shared is compiled as both: with f behind its numbers, without
-// components of vectors, and with what it reads of a part through functions of either side. In C++ it is included
-// within a namespace that has what stands below; vectors are Eigen's.
+// Names for what GLSL and C++ write differently. The code in shaders/shared is compiled as both languages. It therefore
+// writes the suffix f behind floating-point numbers, does not use the components of vectors, and reads the data of a
+// part through functions that each side provides. C++ code includes this header within a namespace that contains the
+// names listed below; its vectors are Eigen's.
 #ifndef SHARED_LANGUAGE_H
 #define SHARED_LANGUAGE_H
 #ifdef __cplusplus

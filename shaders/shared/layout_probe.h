@@ -1,4 +1,5 @@
-// Shows that structs declared once lie alike in C++ and std430: shaders/test/layout_probe.comp moves each field.
+// Structs with which a test verifies that a declaration has the same memory layout in C++ and in std430:
+// shaders/test/layout_probe.comp copies each field to the output.
 #ifndef LAYOUT_PROBE_H
 #define LAYOUT_PROBE_H
 #include "shared/types.h"

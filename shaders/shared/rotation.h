@@ -1,4 +1,4 @@
-// Quaternions (xyzw) and rigid inertia.
+// Functions for quaternions (x, y, z, w) and for the inertia of rigid bodies in GLSL.
 #ifndef SHARED_ROTATION_H
 #define SHARED_ROTATION_H
 vec4 quat_multiply(vec4 a, vec4 b) {

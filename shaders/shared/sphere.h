@@ -1,5 +1,6 @@
-// Data of the default sphere solver as shaders and C++ see it. Lengths in m, world axes unless said otherwise.
-// Indices of pairs and manifold slots count within their world, so that a world's regions can be moved whole.
+// Data of the default solver `sphere` as shaders and C++ see it. Lengths are in m and axes are those of the world
+// unless stated otherwise. Indices of pairs and manifold slots count within their world, so that all regions of a world
+// can be moved together.
 #ifndef SHARED_SPHERE_H
 #define SHARED_SPHERE_H
 #include "shared/sphere/constants.h"

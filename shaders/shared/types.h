@@ -1,6 +1,6 @@
-// GLSL's types for C++, so that one struct serves both languages. Members are vec4, uvec4, ivec4, vec2, uvec2, uint,
-// int, float, and a vec3 only at a multiple of 16 bytes with a uint or float right behind it: elsewhere the layouts of
-// std430 and C++ part.
+// Defines GLSL's types in C++, so that one struct declaration serves both languages. Members are vec4, uvec4, ivec4,
+// vec2, uvec2, uint, int and float. A vec3 is allowed only at a multiple of 16 bytes with a uint or float directly
+// behind it; elsewhere the layouts of std430 and C++ differ.
 #ifdef __cplusplus
 #pragma once
 #include <cstdint>

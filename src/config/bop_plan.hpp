@@ -1,4 +1,5 @@
-/// A plan's key `bop`, but for its symmetries: what BOP's files hold and where.
+/// Reads the key `bop` of a plan: which BOP files the data set contains, and in which layout. Its symmetries are read
+/// with the models (plan_objects.hpp); the files are written by src/dataset.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"

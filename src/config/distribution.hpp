@@ -1,4 +1,5 @@
-/// Values of a plan that differ from heap to heap, and how they are drawn.
+/// Distributions of a plan: values that differ from heap to heap, and how they are drawn. A draw depends on the key of
+/// the random stream only, so that each heap can be drawn alone.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

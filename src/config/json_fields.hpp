@@ -1,4 +1,5 @@
-/// The visitors that write a struct as JSON by the table of its keys, and read it back.
+/// Two visitors of a table of keys: one writes a struct as JSON, and the other reads it back. They serve scene.json and
+/// its report; requests are YAML (key_reader.hpp).
 #pragma once
 
 #include "scene/keys.hpp"

@@ -1,4 +1,5 @@
-/// The visitor that lists a table of keys as rows for the generated pages.
+/// A visitor that lists a table of keys as rows: path, type, default, unit and text of each key. The generated pages,
+/// suggestions and completion are made of these rows.
 #pragma once
 
 #include "config/reference.hpp"

@@ -1,4 +1,5 @@
-/// The visitor that fills a struct from a YAML map and refuses what it does not know.
+/// A visitor that fills a struct from a YAML map and refuses unknown keys with a suggestion. It tests types only;
+/// ranges are tested by RangeCheck (scene/range_check.hpp).
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

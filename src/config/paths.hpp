@@ -1,4 +1,5 @@
-/// Resolves a path of a request to a file inside the permitted roots.
+/// Resolves a path of a request, which may be relative or a package:// path, to a file inside the permitted folders. It
+/// is the only place that decides which files a request may name.
 #pragma once
 
 #include "bin_scenes/config/request_reader.hpp"

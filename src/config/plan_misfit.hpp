@@ -1,4 +1,5 @@
-/// Whether a plan's outputs can hold what one of its requests makes.
+/// Tests whether the output formats of a plan can represent what its requests produce, before any heap is poured. For
+/// example, BOP cannot represent the distortion of a lens.
 #pragma once
 
 #include "bin_scenes/config/plan.hpp"

@@ -1,4 +1,5 @@
-/// The models that a plan's heaps may hold, each once, with the symmetries that its key `bop.symmetries` gives them.
+/// The models that the heaps of a plan may contain, each listed once, with the symmetries that the key `bop.symmetries`
+/// states for them. Their order gives the object numbers of BOP.
 #pragma once
 
 #include "bin_scenes/config/plan.hpp"

@@ -1,4 +1,5 @@
-/// What a plan keeps of its file in order to draw requests.
+/// The parsed parts of a plan file that are needed to draw requests. The public header (config/plan.hpp) hides this
+/// struct so that it does not depend on yaml-cpp.
 #pragma once
 
 #include "bin_scenes/config/plan.hpp"

@@ -1,4 +1,5 @@
-/// Parts of one line with surfaces of their own: a plan's key `surfaces`.
+/// The key `surfaces` of a plan: parts of one line get different optical surfaces. Because a line of a request has one
+/// surface, such a line is split into several lines.
 #pragma once
 
 #include "config/plan_state.hpp"

@@ -1,4 +1,5 @@
-/// Folders of files that each hold the values of a preset: config/sensors, config/materials, config/grippers.
+/// Access to folders of presets: config/sensors, config/materials and config/grippers. Each file contains the values of
+/// one preset. This header finds and lists the files; the readers of each kind interpret them.
 #pragma once
 
 #include "config/key_reader.hpp"

@@ -1,4 +1,5 @@
-/// A request from the tree of its document, for readers of files that hold one among other things.
+/// Reads a request from a parsed YAML document, for readers of files in which a request is one part among others, such
+/// as plans. Files that are a request only are read by config/request_reader.hpp.
 #pragma once
 
 #include "bin_scenes/config/request_reader.hpp"

@@ -1,4 +1,4 @@
-/// The table of keys as rows: for docs/use/request.md and for suggestions.
+/// Returns all keys of a request as rows. docs/use/request.md, suggestions for unknown keys and completion use them.
 #pragma once
 
 #include <string>

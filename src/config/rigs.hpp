@@ -1,4 +1,5 @@
-/// Rigs: the sensors of published data sets, files of config/sensors/rigs.
+/// Rigs: the sensors of published data sets under one name. A rig is a file of config/sensors/rigs that contains the
+/// list `sensors` of a request.
 #pragma once
 
 #include <yaml-cpp/yaml.h>

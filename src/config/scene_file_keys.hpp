@@ -1,4 +1,5 @@
-/// The table of scene.json (see scene/keys.hpp); those of parts and report are in scene/report_keys.hpp.
+/// The table of the keys of scene.json (see scene/keys.hpp). The tables of parts and report are in
+/// scene/report_keys.hpp. Reading, writing and docs/use/scene.md all use these tables.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

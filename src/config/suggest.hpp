@@ -1,4 +1,4 @@
-/// The nearest known word to a mistyped one.
+/// Finds the known word that is nearest to a mistyped one, for error messages. Nothing is corrected automatically.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-/// Single values of a request in YAML: reading with a clear message, writing so that reading gives the same bits.
+/// Single values of a request in YAML: reading them with clear error messages, and writing them so that reading
+/// restores the same bits. Maps and lists of keys are handled by key_reader.hpp.
 #pragma once
 
 #include "config/suggest.hpp"

@@ -1,4 +1,5 @@
-/// Views of sensors, spelled out as sensors.
+/// Expands the key `views` of a sensor into one sensor for each view, so that the rest of the program knows sensors
+/// only.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

@@ -1,4 +1,5 @@
-/// Parses YAML text. Time and memory are bounded by the length of the text, whatever it contains.
+/// Parses YAML text to a document. Time and memory are bounded by the length of the text, whatever it contains, because
+/// the ROS node accepts requests from others.
 #pragma once
 
 #include <yaml-cpp/yaml.h>

@@ -1,12 +1,13 @@
-/// Structs as bytes and back, for the disk cache and for the results of contained processes. The members of a struct
-/// are listed once, and a stream writes or reads them in this order:
+/// Writes structs as bytes and reads them back, for the disk cache and for the results of contained processes. The
+/// members of a struct are listed once, and a stream writes or reads them in this order:
 ///
 ///     template <class Stream>
 ///     void members(Stream& stream, Sphere& sphere) {
 ///       stream(sphere.center, sphere.radius);
 ///     }
 ///
-/// Both sides are the same program on the same machine, so numbers have no byte order of their own.
+/// Both sides are the same program on the same machine, so the byte order is that of the machine. Files for other
+/// programs are not written in this format.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,4 +1,5 @@
-/// Union-find: connected components of numbered items.
+/// Union-find: the connected components of numbered items. Islands of touching parts and shells of meshes are found
+/// with it.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/// Loops whose iterations run on all cores.
+/// Loops whose iterations run on all cores. Iterations must not depend on each other, so that the result is the same
+/// with any number of threads. The cancellation flag of the caller is valid in all of them.
 #pragma once
 
 #include "bin_scenes/core/cancel.hpp"

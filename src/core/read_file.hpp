@@ -1,6 +1,6 @@
-/// Regular files read whole or hashed. Never waits for another process: a pipe, a device or a folder is refused at
-/// once. Both throw an input Error that names the path, and Error(cancelled) once this thread's work is no longer
-/// wanted.
+/// Reads whole regular files, or computes their digest. It never waits for another process: a pipe, a device or a
+/// folder is refused at once. All functions throw an input Error that names the path, and Error(cancelled) if the work
+/// of this thread is cancelled.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-/// Where the files of an installation lie that was moved: shaders, presets.
+/// Finds the data files (shaders, presets) of an installation that was moved to another place, relative to the
+/// executable.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-/// Images and masks of anybody's BOP scenes, as they are stored: PNG files, or run lengths in JSON files.
+/// Reads images and masks of BOP scenes of any origin, as they are stored: as PNG files, or as run lengths in JSON
+/// files. The poses and cameras are read by bop_reader.hpp.
 #pragma once
 
 #include "dataset/bop_reader.hpp"

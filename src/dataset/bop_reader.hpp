@@ -1,4 +1,5 @@
-/// BOP scenes of any generator or real set, as poses in a world: for an audit.
+/// Reads BOP scenes of any generator, or of real images, and converts them to poses in one world frame for an audit.
+/// Images are read by bop_files.hpp.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

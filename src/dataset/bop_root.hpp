@@ -1,4 +1,5 @@
-/// What BOP's readers look for beside the scenes: cameras, targets of evaluations, a description.
+/// Writes the files that readers of BOP expect in addition to the scenes: cameras, targets of evaluations, and a
+/// description of the data set.
 #pragma once
 
 #include "dataset/data_folder.hpp"

@@ -1,4 +1,4 @@
-/// Pixels of one part, counted, and the box around them.
+/// The number of pixels of one part in an image, and the box around them.
 #pragma once
 
 #include "output/boxes.hpp"

@@ -1,4 +1,4 @@
-/// What the pages of `view` and `report` show of grasps.json.
+/// Extracts from grasps.json what the pages of `view` and `report` display. The file itself is written by output/.
 #pragma once
 
 #include <nlohmann/json.hpp>

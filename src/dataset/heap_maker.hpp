@@ -1,4 +1,5 @@
-/// Makes heaps of a plan into folders, one after the other: what a worker does.
+/// The work of one worker process: it makes heaps of a plan one after the other and writes each scene into a folder.
+/// Which heap comes next is decided by the parent process (workers.hpp).
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

@@ -1,4 +1,5 @@
-/// Data sets that were made in shares, on one machine or many, joined into one.
+/// Joins data sets that were made in shares, on one or several machines, into one data set. The result has the same
+/// bytes as a data set that was made in one piece, except for the index.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-/// What is published of real bins, beside the same figures of a data set.
+/// Published figures of data sets of real bins, for comparison with the same figures of a simulated data set.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-/// What a worker reports of the heaps that it made; the index keeps it.
+/// The record of one heap: what a worker process reports to its parent. The index stores it (scene_index.hpp).
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

@@ -1,4 +1,4 @@
-/// A data set as one HTML page that opens from the disk, without a network.
+/// Writes the report of a data set as one HTML page that opens from the disk without a network.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-/// Makes a data set, or what is missing of it.
+/// Makes a data set, or completes one that is unfinished: finished scenes are kept, and missing ones are made. This is
+/// the command `bin_scenes dataset` without its options.
 #pragma once
 
 #include "dataset/data_folder.hpp"

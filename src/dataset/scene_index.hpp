@@ -1,5 +1,5 @@
-/// index.sqlite: what became of each heap and scene, and how long it took. It can be made again from the scenes, but
-/// for the times.
+/// index.sqlite: the outcome of each heap and scene, and the time that it took. Except for the times, the index can be
+/// rebuilt from the scenes, so that losing it loses no data.
 #pragma once
 
 #include "dataset/record.hpp"

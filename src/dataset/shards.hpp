@@ -1,4 +1,5 @@
-/// BOP's layout by images: tar files of at most a thousand images each, as WebDataset reads them.
+/// Packs images into shards: tar files in BOP's layout by images with at most a thousand images each, as WebDataset
+/// reads them.
 #pragma once
 
 #include "dataset/data_folder.hpp"

@@ -1,4 +1,4 @@
-/// A data set made by an array job of Slurm, one share a task.
+/// Submits the making of a data set to Slurm as an array job, in which each task makes one share.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,5 @@
-/// Whether a data set is what it says: files, formats, and geometry against labels.
+/// Verifies a data set: whether all files are present and unchanged, whether they have the right formats, and whether
+/// the labels agree with the geometry.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

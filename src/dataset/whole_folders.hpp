@@ -1,4 +1,5 @@
-/// Folders of a scene's files that appear whole or not at all, and can check later whether they still are.
+/// Folders of scene files that appear either complete or not at all. A list of digests in each folder allows a later
+/// check that its files are unchanged.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"

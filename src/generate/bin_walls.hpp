@@ -1,4 +1,5 @@
-/// Whether a bin that is a mesh holds parts by walls that have an inside.
+/// Tests whether the mesh of a bin has walls that hold parts: walls with two sides, and not a single sheet of triangles
+/// that parts could pass through.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,5 @@
-/// Models of requests, kept in memory between them.
+/// Keeps the models of requests in memory between requests, so that a model is loaded once. The disk cache
+/// (part/cache.hpp) works below it.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

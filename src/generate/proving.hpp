@@ -1,4 +1,5 @@
-/// Which grasps of a scene are proved, and their proofs.
+/// Selects the grasps of a scene that are tested by simulation, and attaches the results to them. Prover
+/// (pour/prover.hpp) does the simulation.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

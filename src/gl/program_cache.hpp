@@ -1,5 +1,6 @@
-/// Linked program binaries on disk, keyed by driver and source. Not writable, damaged or refused: it works without.
-/// BIN_SCENES_CACHE=off switches it off.
+/// Stores linked shader programs on the disk under a key of driver and source. If the cache cannot be written, or an
+/// entry is damaged or refused by the driver, programs are compiled as without a cache. BIN_SCENES_CACHE=off switches
+/// it off.
 #pragma once
 
 #include <string>

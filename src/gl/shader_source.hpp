@@ -1,4 +1,5 @@
-/// Text of a shader as the compiler gets it, and the mapping from its messages back to files.
+/// Assembles the text of a shader that the compiler receives, and maps the lines of compiler messages back to source
+/// files.
 #pragma once
 
 #include "bin_scenes/gl/program.hpp"

@@ -1,4 +1,5 @@
-/// The only place that sees assimp.
+/// Reads a mesh file with assimp. No other file includes assimp's headers. The result is not repaired; mesh_loader.cpp
+/// does that.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
-/// STEP and IGES files, made triangles by OpenCASCADE. It works in a contained process, as assimp does.
+/// Reads STEP and IGES files and divides their surfaces into triangles with OpenCASCADE. The work runs in a contained
+/// process (contained.hpp), like that of assimp.
 #pragma once
 
 #include "mesh_file.hpp"

@@ -1,4 +1,5 @@
-/// Data of COLLADA files that assimp 5.2 does not report, and files that it cannot read.
+/// Reads data of COLLADA files that assimp 5.2 does not report, such as unit and up axis, and rewrites files that
+/// assimp cannot read.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-/// Runs a function in a forked child, so that a crash or an endless loop inside a third-party reader costs an error
-/// message instead of the process. Seen with assimp 5.2.5: a damaged COLLADA file crashed it.
+/// Runs a function in a forked child process, so that a crash or an endless loop in a third-party reader causes an
+/// error message and does not end this process. The reason is assimp 5.2.5, which crashed on a damaged COLLADA file.
 #pragma once
 
 #include <cstddef>

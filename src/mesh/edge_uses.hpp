@@ -1,4 +1,5 @@
-/// Edges of a mesh with the triangles that pass along them.
+/// Lists the edges of a mesh with the triangles that use each of them. The repairs of meshes find open and shared edges
+/// with this list.
 #pragma once
 
 #include "bin_scenes/core/assertion.hpp"

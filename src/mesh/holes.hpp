@@ -1,4 +1,4 @@
-/// Openings of a surface.
+/// Finds the holes of a surface, which are closed loops of open edges, and closes small ones with triangles.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

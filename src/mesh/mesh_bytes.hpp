@@ -1,4 +1,5 @@
-/// Members of meshes and flags for streams of bytes.
+/// Lists the members of meshes and flags for byte streams (core/byte_stream.hpp), which the disk cache and contained
+/// processes use.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

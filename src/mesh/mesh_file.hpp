@@ -1,5 +1,5 @@
-/// A model file as it is: all triangles of all its meshes with node transforms applied, in the file's own unit and
-/// axes, nothing welded or repaired.
+/// A model file as it was read: all triangles of all its meshes with the node transforms applied, in the unit and the
+/// axes of the file. Nothing is welded or repaired yet.
 #pragma once
 
 #include "bin_scenes/mesh/mesh_loader.hpp"

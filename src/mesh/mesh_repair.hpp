@@ -1,5 +1,5 @@
-/// The repairs a loaded mesh goes through, in the order of src/mesh/mesh_loader.cpp.
-/// Lengths in the unit of the mesh. All of them are deterministic: ties go to the lower index.
+/// The repairs of a loaded mesh, in the order in which src/mesh/mesh_loader.cpp applies them. Lengths are in the unit
+/// of the mesh. All repairs are deterministic: ties are decided in favour of the lower index.
 #pragma once
 
 #include "edge_uses.hpp"

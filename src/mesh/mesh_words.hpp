@@ -1,4 +1,4 @@
-/// Figures in messages about meshes.
+/// Formats counts and lengths for messages about meshes.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,5 @@
-/// What a model file is, detected from its name and bytes before any reader sees it.
+/// Detects the format of a model file from its name and its bytes, before any reader is called. Unknown formats are
+/// refused here.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-/// Which side of a surface is outside.
+/// Determines which side of a surface is outside, and turns triangles whose winding disagrees with that.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

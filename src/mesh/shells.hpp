@@ -1,4 +1,5 @@
-/// The connected parts of a surface and what they enclose.
+/// Finds the connected components (shells) of a surface, their volume and area, and the winding number of their
+/// triangles about a point.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
-/// Long edges that meet several short ones.
+/// Repairs T-junctions: a long edge that meets several short ones is split at their end points, so that the surface
+/// becomes closed.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

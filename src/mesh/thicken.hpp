@@ -1,4 +1,4 @@
-/// Turns an open sheet into a solid of a given thickness.
+/// Turns an open surface into a closed solid of a given thickness.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,4 @@
-/// Unites the overlapping solid shells of a part.
+/// Unites the overlapping closed shells of a part into one solid, so that its volume counts only once.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

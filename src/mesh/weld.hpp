@@ -1,4 +1,4 @@
-/// Merges equal vertices and removes the triangles that thereby become degenerate.
+/// Welds a mesh: merges vertices that are equal within a tolerance, and removes the triangles that become degenerate.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,5 +1,5 @@
-/// One image of a scene as BOP describes it, made once for both of its layouts: folders of scenes, and samples for
-/// shards.
+/// One image of a scene as BOP describes it: poses, boxes, masks and visible fractions. It is computed once and written
+/// in both layouts, folders of scenes and samples for shards.
 #pragma once
 
 #include "bin_scenes/output/bop_layout.hpp"

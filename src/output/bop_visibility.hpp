@@ -1,5 +1,6 @@
-/// What BOP says of a part in an image, by the definitions of bop_toolkit's calc_gt_info. Which pixels show a part is
-/// decided by the true image, or by the depth image as it is stored and the depth of the part alone.
+/// Computes what BOP states of a part in an image: visible pixels, boxes and visible fraction, by the definitions of
+/// bop_toolkit's calc_gt_info. The pixels that show a part are determined either by the true image, or by the stored
+/// depth image together with the depth of the part alone.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,4 @@
-/// Bounding boxes of parts in an image, for BOP's files and the truth block of scene.json.
+/// Computes the bounding boxes of parts in an image, for BOP files and for the block `truth` of scene.json.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

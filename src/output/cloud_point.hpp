@@ -1,4 +1,5 @@
-/// A point as it lies in PCD and PLY files, little-endian: what was measured, a byte of validity, the true normal, SNR.
+/// The binary layout of a point in PCD and PLY files (little-endian): measured values, one byte of validity, the true
+/// normal, and the SNR.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-/// Models as pose errors are computed with: vertices evenly over the surface, and no more of them than that takes.
+/// Makes the models with which pose errors are computed: their vertices are spread evenly over the surface, and there
+/// are no more of them than this requires.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

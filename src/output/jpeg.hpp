@@ -1,4 +1,5 @@
-/// Grey images as the JPEG files in which trainers look for colour images.
+/// Writes grey images as JPEG files with three equal channels, because training programs look for colour images in this
+/// format.
 #pragma once
 
 #include "output/png.hpp"

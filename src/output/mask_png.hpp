@@ -1,4 +1,4 @@
-/// Fast PNG writer for masks that are 0 nearly everywhere: a scene of a data set holds hundreds of them.
+/// Writes PNG files of masks quickly. A scene of a data set contains hundreds of masks, which are 0 almost everywhere.
 #pragma once
 
 #include "output/png.hpp"

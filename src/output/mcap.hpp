@@ -1,6 +1,6 @@
-/// The container MCAP: messages with their definitions and an index in one file. Written as its specification says
-/// (mcap.dev, version 0), with chunks packed by zstd, and with checksums of all of them. What the messages are is for
-/// the caller to say.
+/// Writes the container format MCAP: messages, their definitions and an index in one file. It follows the specification
+/// (mcap.dev, version 0), compresses chunks with zstd, and adds checksums to all of them. The caller provides the
+/// messages; this writer does not know their contents.
 #pragma once
 
 #include "output/whole_file.hpp"

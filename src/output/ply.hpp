@@ -1,4 +1,4 @@
-/// PLY files of models.
+/// Writes the meshes of models as PLY files.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,4 @@
-/// Lossless images, and bytes to a file in one go.
+/// Writes images as PNG files without loss, and writes bytes to a file in one piece.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

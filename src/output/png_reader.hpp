@@ -1,4 +1,4 @@
-/// Lossless images back from their files.
+/// Reads PNG files as the arrays of counts from which png.hpp wrote them.
 #pragma once
 
 #include <cstdint>

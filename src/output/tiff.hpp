@@ -1,4 +1,5 @@
-/// TIFF images of BOP's layouts, whose readers want grey images, and those of one data set all images, in that format.
+/// Writes images as TIFF files for BOP. Readers of some data sets expect the grey images, or all images, in this
+/// format.
 #pragma once
 
 #include "output/png.hpp"

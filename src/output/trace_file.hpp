@@ -1,4 +1,4 @@
-/// A trace as CSV.
+/// Writes a trace as a CSV file with one row for each part and sample (output/trace.hpp).
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"

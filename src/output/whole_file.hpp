@@ -1,4 +1,4 @@
-/// A file written piece by piece that appears whole or not at all.
+/// A file that is written in pieces and appears either complete or not at all.
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"

@@ -1,4 +1,4 @@
-/// Which nodes of a grid are inside a mesh.
+/// Determines which nodes of a grid are inside a mesh. It gives the distances of a distance field their sign.
 #pragma once
 
 #include "bin_scenes/part/distance_field.hpp"

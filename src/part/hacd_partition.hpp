@@ -1,4 +1,5 @@
-/// Surface patches of a mesh by HACD, fine enough to be merged into convex pieces.
+/// Divides the surface of a mesh into patches by HACD, fine enough to be merged into convex pieces by convex_hulls.cpp.
+/// No other file includes HACD's headers.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,5 +1,6 @@
-/// Members of proxies for streams of bytes: the disk cache. The cache checks that the bytes are those once written and
-/// the key holds the format version, so reading only guards against running over the end.
+/// Lists the members of collision shapes for byte streams (core/byte_stream.hpp), with which the disk cache stores
+/// them. The cache verifies that the bytes are those that were written, and its key contains the format version;
+/// reading therefore guards only against running past the end.
 #pragma once
 
 #include "bin_scenes/mesh/mesh_loader.hpp"

@@ -1,4 +1,5 @@
-/// Reads prepared data of a part from the disk cache, or makes and writes it. All prepared data goes through here.
+/// Reads prepared data of a part from the disk cache, or makes and stores them. All prepared data of all parts pass
+/// through here.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,4 @@
-/// The data of a PartModel.
+/// The data of a PartModel: its mesh, and the shapes that have been made so far.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,4 @@
-/// A solid cut by planes into pieces that are nearly convex.
+/// Cuts a solid by planes into pieces that are nearly convex. convex_hulls.cpp encloses each piece in a hull.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
-/// Inside or outside of a closed mesh by one ray: every surface that it passes changes the winding number by one.
+/// Determines with one ray whether a point is inside a closed mesh: every surface that the ray passes changes the
+/// winding number by one.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

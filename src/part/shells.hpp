@@ -1,4 +1,4 @@
-/// The connected parts of a mesh.
+/// Finds the connected components (shells) of a mesh.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

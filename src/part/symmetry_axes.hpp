@@ -1,4 +1,4 @@
-/// Axes about which a part may be symmetric.
+/// Proposes axes about which a part may be symmetric. symmetry.cpp tests them.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

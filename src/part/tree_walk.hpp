@@ -1,4 +1,4 @@
-/// The one walk through the tree of a mesh.
+/// The traversal of the bounding-volume tree of a mesh. All queries of mesh_query.hpp use this one function.
 #pragma once
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,4 +1,5 @@
-/// Nearest point on one triangle: the innermost loop of distance field and voxelisation.
+/// Finds the point of a triangle that is nearest to a given point. It is the innermost loop of distance fields and
+/// voxelisation.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,5 +1,5 @@
-/// What a winding number is added up from: solid angles of near triangles, and an expansion for those far away (fast
-/// winding numbers, Barill et al. 2018).
+/// The terms that add up to a winding number: solid angles of near triangles, and an expansion for groups of far
+/// triangles (fast winding numbers, Barill et al. 2018).
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,5 +1,6 @@
-/// The watch of a heap whose world is observed by the device that simulates it (solver/world_watch.hpp): keeps the
-/// times of observations, so that counts by number of observation become the answers that RestWatch gives by time.
+/// Answers the questions of RestWatch and EnergyAudit for a heap whose world is observed by the device that simulates
+/// it (solver/world_watch.hpp). The device numbers its observations; this class keeps their times, so that its answers
+/// are in seconds.
 #pragma once
 
 #include "bin_scenes/solver/world_watch.hpp"

@@ -1,24 +1,25 @@
-/// Energy audit: detects mechanical energy that contacts created, the sign of an explosion.
+/// The energy audit detects mechanical energy that contacts created, which is the sign of an explosion.
 ///
-/// Contacts and friction can only remove mechanical energy, so a group of parts that may have touched cannot gain any
-/// between two observations; a part gains only what its neighbours lose. Parts within reach of each other form a group,
-/// and the gain of a part is limited to the gain of its group:
+/// Contacts and friction can only remove mechanical energy. A group of parts that may have touched can therefore not
+/// gain any between two observations, and a part gains only what its neighbours lose. Parts within reach of each other
+/// form a group, and the gain of a part is limited to the gain of its group:
 ///
 ///     gain of part i = min(E_i now - E_i before, sum of the same over its group) / (m_i g d_i)
 ///
-/// with E the kinetic and potential energy, m the mass, g gravity, d the diagonal of its bounding box: 1 throws the
-/// part up by its own size. What rounding does to fast parts is allowed for; so is what friction's and rotation's
-/// integration may err by, which is a share of the kinetic energy.
+/// where E is the kinetic and potential energy, m the mass, g gravity, and d the diagonal of the bounding box: a gain
+/// of 1 throws the part up by its own size. Rounding errors of fast parts are subtracted, and so is the possible error
+/// of integrating friction and rotation, which is a share of the kinetic energy.
 ///
-/// Energy alone does not see a light part that heavy ones pinch out: they lose more than it wins. Without restitution
-/// nothing leaves a contact faster than what hit it, so a part that is faster than everything in its group was
-/// before, gravity's share taken off, was thrown. Wedges and levers give some: twice as fast is reported, five times
-/// sets apart.
+/// Energy alone does not reveal a light part that heavy parts pinch out, because they lose more energy than it gains.
+/// Without restitution, nothing leaves a contact faster than the body that hit it. A part that is faster than
+/// everything in its group was before, gravity's share subtracted, was therefore thrown. Wedges and levers multiply
+/// speeds to some degree: twice as fast is reported, and five times as fast sets the scene apart.
 ///
-/// What a gain of a part in one interval misses is a slow one, and what a part takes back from others that gained
-/// before it. Therefore the energy of all parts together is compared with the least that it was before (WorldEnergy):
+/// The gain of a part in one interval misses slow gains, and includes energy that a part recovers from others that
+/// gained it before. The energy of all parts together is therefore also compared with its lowest earlier value
+/// (WorldEnergy):
 ///
-///     gain of the world = sum over all parts (E_i now - E_i at the least) / sum over those that moved (m_i g d_i)
+///     gain of the world = sum over all parts (E_i now - E_i at the lowest) / sum over those that moved (m_i g d_i)
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"

@@ -1,4 +1,5 @@
-/// A gripper as bodies of a world: fingers or ring, and palm. Gripper's frame (scene/gripper.hpp).
+/// Makes the bodies of a gripper for a simulated world: fingers or ring, and palm, in the gripper frame
+/// (scene/gripper.hpp).
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

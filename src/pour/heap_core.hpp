@@ -1,5 +1,5 @@
-/// The state machine of one heap: which parts are in the bin, wait, rest, or are gone. The caller advances the solver
-/// (settle_heaps.hpp), so that many heaps of one solver are stepped together.
+/// The state machine of one heap: which parts are in the bin, waiting, at rest or gone, and which stage of settling it
+/// is in. The caller advances the solver (settle_heaps.hpp), so that many heaps of one solver are simulated together.
 #pragma once
 
 #include "pour/device_watch.hpp"

@@ -1,8 +1,8 @@
-/// Parts that are held by contacts which squeeze them harder than gravity can: they do not lie, they stick.
+/// Detects jammed parts, which are held by contacts that squeeze them harder than gravity can.
 ///
-/// What presses on a part from one side and from the other, the smaller of both, is its squeeze. A part that lies in a
-/// heap carries at most about the weight of what is above it, and its own. A jam carries more, by a wedge's action or
-/// because shapes overlap which the solver cannot push apart.
+/// The squeeze of a part is the smaller of the forces that press on it from two opposite sides. A part of a heap
+/// carries at most about its own weight and that of the parts above it. A jammed part carries more, by the action of a
+/// wedge or because shapes overlap that the solver cannot separate.
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"

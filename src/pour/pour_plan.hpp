@@ -1,4 +1,5 @@
-/// What a request asks to be poured, checked and measured once for all its scenes.
+/// What a request asks to be poured: parts, opening and limits. It is checked and computed once for all scenes of the
+/// request.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

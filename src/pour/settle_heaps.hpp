@@ -1,4 +1,4 @@
-/// Heaps of one solver that are stepped together until each is over.
+/// Settles several heaps of one solver, which are stepped together until each of them is finished.
 #pragma once
 
 #include "pour/heap_core.hpp"

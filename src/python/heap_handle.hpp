@@ -1,4 +1,5 @@
-/// A heap of a session. It lies in the session's thread, as its solver does; this is what Python holds.
+/// The handle through which Python uses a heap. The heap itself belongs to the thread of the session (session.hpp),
+/// like its solver.
 #pragma once
 
 #include "scene_data.hpp"

@@ -1,4 +1,4 @@
-/// A scene as Python sees it: the memory that its arrays show.
+/// A scene for Python: the memory that the numpy arrays of the module share without copying.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"

@@ -1,4 +1,4 @@
-/// The scenes of a request as a sequence that is asked for one by one.
+/// The scenes of a request as a Python iterator, which returns them one by one while further scenes are made.
 #pragma once
 
 #include "scene_data.hpp"

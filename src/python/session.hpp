@@ -1,5 +1,6 @@
-/// The thread in which a Python Generator works. All of its jobs run there, one at a time: a GL context belongs to the
-/// thread that made it, and Python's own threads stay free to go on. Nothing here knows Python.
+/// The thread in which a Python Generator works. All of its jobs run in this thread, one at a time, because a GL
+/// context belongs to the thread that made it; Python's own threads can continue meanwhile. This header does not depend
+/// on Python.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"

@@ -1,4 +1,5 @@
-/// Small convex polyhedra made by cutting a box with half-spaces, and the exact depth of two of them.
+/// Small convex polyhedra that are made by cutting a box with half-spaces, and the exact depth of overlap of two of
+/// them. penetration.cpp divides concave meshes into such cells.
 #pragma once
 
 #include "bin_scenes/part/hull_geometry.hpp"

@@ -1,4 +1,4 @@
-/// Where the surfaces of two placed meshes cut each other.
+/// Finds the places at which the surfaces of two placed meshes intersect.
 #pragma once
 
 #include "tree_pair.hpp"

@@ -1,4 +1,4 @@
-/// Distance that a resting part could fall before another surface holds it.
+/// Computes the gap of a part at rest: the distance that it could fall before another surface supports it.
 #pragma once
 
 #include "placed.hpp"

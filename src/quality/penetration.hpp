@@ -1,4 +1,5 @@
-/// Overlap of two placed meshes, one of which may be an open surface.
+/// Computes the overlap of two placed meshes, one of which may be an open surface (a bin). The public function for
+/// closed meshes is in quality/quality.hpp.
 #pragma once
 
 #include "bin_scenes/part/mesh_query.hpp"

@@ -1,4 +1,4 @@
-/// The parts of a scene with poses and search trees, as the quality measures use them.
+/// The parts of a scene with their poses and search trees, as the quality measures use them.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,5 @@
-/// Walks over the triangle trees of two placed meshes at once. All results are in the frame of the first mesh.
+/// Traversals of the triangle trees of two placed meshes at once, for overlaps and distances. All results are in the
+/// frame of the first mesh.
 #pragma once
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,4 +1,5 @@
-/// Scenes made ahead, in a thread of their own, so that who asks for the next one waits for nothing.
+/// Makes scenes ahead of demand in a thread of its own, so that a request for the next scene is answered without
+/// waiting.
 #pragma once
 
 #include "publication.hpp"

@@ -1,4 +1,4 @@
-/// A scene as a bag, without a ROS master.
+/// Writes a scene to a bag without a ROS master.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

@@ -1,8 +1,8 @@
-/// Messages of ROS 1 as ROS 2 sends and describes them: as CDR, which says how many bytes stand where, and by
-/// definitions with the names of ROS 2 (those of Humble and later).
+/// Converts messages of ROS 1 to the form in which ROS 2 sends and describes them: the encoding CDR, which aligns
+/// values to their size, and definitions with the names of ROS 2 (Humble and later).
 ///
-/// A definition of ROS 2 has the fields of that of ROS 1 in the same order, but for three differences: a Header has no
-/// `seq`, names of fields are in small letters, and a Marker may have a texture and the file of its mesh.
+/// A definition of ROS 2 has the same fields in the same order as that of ROS 1, with three exceptions: a Header has no
+/// `seq`, names of fields are in lower case, and a Marker may have a texture and the file of its mesh.
 #pragma once
 
 #include <fastcdr/Cdr.h>

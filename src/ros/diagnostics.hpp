@@ -1,4 +1,4 @@
-/// What /diagnostics says of one bin.
+/// Fills the topic /diagnostics with the state of one bin: device, quality of the last scene, queue and cache.
 #pragma once
 
 #include "publication.hpp"

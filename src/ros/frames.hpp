@@ -1,4 +1,4 @@
-/// Names of TF frames, and where the bin stands.
+/// The names of the TF frames, and the pose of the bin in the parent frame that the user chose.
 #pragma once
 
 #include "bin_scenes/scene/scene.hpp"

@@ -1,4 +1,4 @@
-/// The action `generate`: goals become jobs, progress becomes feedback.
+/// The action `generate`: it turns goals into jobs of the queue, and progress into feedback.
 #pragma once
 
 #include "scene_jobs.hpp"

@@ -1,4 +1,4 @@
-/// Grasps as messages.
+/// Converts grasps to ROS messages.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

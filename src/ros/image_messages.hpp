@@ -1,4 +1,5 @@
-/// Range image -> organised cloud, depth, labels, validity and camera model, all of one stamp and one frame.
+/// Converts a range image to ROS messages: an organised cloud, depth, labels, validity and camera model, all with one
+/// stamp and one frame.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

@@ -1,4 +1,4 @@
-/// A latched topic whose message is made only when somebody wants it.
+/// A latched topic whose message is made only if there is a subscriber.
 #pragma once
 
 #include "latched.hpp"

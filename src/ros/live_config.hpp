@@ -1,4 +1,4 @@
-/// Parameters that may change while the node runs (cfg/BinScenes.cfg).
+/// Parameters that may be changed while the node runs (cfg/BinScenes.cfg).
 #pragma once
 
 #include "publication.hpp"

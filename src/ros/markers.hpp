@@ -1,4 +1,4 @@
-/// Markers of a scene for RViz.
+/// Makes the markers with which RViz shows the parts and the bin of a scene.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

@@ -1,5 +1,5 @@
-/// A master that is started again knows nobody. roscpp registers what its process offers once, and never again:
-/// its connections go on, but nobody new finds it. This registers it with such a master anew.
+/// Registers this process again with a ROS master that was restarted. roscpp registers topics and services only once:
+/// after a restart of the master, existing connections continue, but new clients would not find this process.
 #pragma once
 
 #include "thread_queue.hpp"

@@ -1,4 +1,4 @@
-/// A scene as an MCAP file, for players of ROS 1 or ROS 2; neither need run.
+/// Writes a scene to an MCAP file for players of ROS 1 or ROS 2. Neither of them needs to run.
 #pragma once
 
 #include "bin_scenes/output/scene_writer.hpp"

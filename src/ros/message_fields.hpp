@@ -1,4 +1,5 @@
-/// The fields of a message by their names.
+/// Access to the fields of a ROS message by their names, so that requests and reports are converted by the tables of
+/// their keys.
 #pragma once
 
 #include <ros/message_traits.h>

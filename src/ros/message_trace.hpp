@@ -1,4 +1,5 @@
-/// A scene over simulated time as messages in a .bag or .mcap file, without a ROS master.
+/// Writes the trace of a scene (output/trace.hpp) as ROS messages to a .bag or .mcap file, without a ROS master.
+/// Contacts are markers.
 #pragma once
 
 #include "bin_scenes/output/trace.hpp"

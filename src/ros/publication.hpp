@@ -1,7 +1,5 @@
-/// What the topics show: the last scene, its images when somebody looks, its frames.
-///
-/// All of it happens in one thread of its own, so that subscribers are served, and the scene is published again, while
-/// the next one is being made.
+/// Publishes the last scene: its message, its images if there are subscribers, and its frames. All of this happens in a
+/// separate thread, so that subscribers are served and the scene is published repeatedly while the next one is made.
 #pragma once
 
 #include "lazy_topic.hpp"

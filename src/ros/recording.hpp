@@ -1,4 +1,4 @@
-/// What a recording of the live node holds of one scene. Bags and MCAP files share it.
+/// The messages that a recording of the live node contains for one scene. Bags and MCAP files share them.
 #pragma once
 
 #include "topics.hpp"

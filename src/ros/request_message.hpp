@@ -1,5 +1,5 @@
-/// Request message -> request, through the one reader of requests: keys, defaults, checks and error texts are those of
-/// a request file.
+/// Converts a request message to a request with the reader of request files (config/), so that keys, defaults, checks
+/// and error messages are the same for both.
 #pragma once
 
 #include "bin_scenes/config/request_reader.hpp"

@@ -1,4 +1,4 @@
-/// A bag that appears whole or not at all.
+/// A bag file that appears either complete or not at all.
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"

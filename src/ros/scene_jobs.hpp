@@ -1,4 +1,5 @@
-/// What can be asked of one bin, as jobs of its queue. Action and services are thin doors to this.
+/// The operations that clients can request for one bin, as jobs of its queue. Action and services call these functions
+/// and contain no logic of their own.
 #pragma once
 
 #include "ahead.hpp"

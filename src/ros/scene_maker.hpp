@@ -1,4 +1,4 @@
-/// Makes the scenes of one bin and keeps their heap, so that parts can be taken out and added.
+/// Makes the scenes of one bin, and keeps their heap so that parts can be removed and added.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"

@@ -1,4 +1,4 @@
-/// Messages that describe a scene.
+/// Converts a scene to the messages that describe it.
 #pragma once
 
 #include "bin_scenes/scene/scene.hpp"

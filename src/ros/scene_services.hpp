@@ -1,4 +1,4 @@
-/// The services: doors that block until their job has ended.
+/// The ROS services. Each service starts a job and blocks until the job has ended.
 #pragma once
 
 #include "scene_jobs.hpp"

@@ -1,4 +1,5 @@
-/// Whether the client that waits for the answer of a service call is still there.
+/// Determines whether the client that waits for the answer of a service call still exists, so that its job can be
+/// cancelled otherwise.
 #pragma once
 
 #include <ros/connection.h>

@@ -1,4 +1,4 @@
-/// Parameters of the node.
+/// Reads the ROS parameters of the node.
 #pragma once
 
 #include "bin_scenes/config/request_reader.hpp"

@@ -1,4 +1,4 @@
-/// A thread with a callback queue of its own: what roscpp calls back and what is posted runs there, one by one.
+/// A thread with its own callback queue: callbacks of roscpp and posted functions run in it one after the other.
 #pragma once
 
 #include <ros/callback_queue.h>

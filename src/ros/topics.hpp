@@ -1,5 +1,5 @@
-/// The messages of one scene and their topic names. Node and bag writer share them, so that a bag made offline equals a
-/// recording of the node.
+/// The messages of one scene with the names of their topics. The node and the bag writer share them, so that a bag that
+/// is made offline equals a recording of the node.
 #pragma once
 
 #include "image_messages.hpp"

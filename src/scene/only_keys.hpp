@@ -1,4 +1,4 @@
-/// The visitor that hands on some keys of a table, for a file that holds only these.
+/// A visitor that forwards only some keys of a table, for a file that contains only these.
 #pragma once
 
 #include "bin_scenes/scene/key.hpp"

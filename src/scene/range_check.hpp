@@ -1,4 +1,4 @@
-/// The visitor of tables of keys that refuses numbers out of their range, each by its path.
+/// A visitor of tables of keys that refuses numbers outside their range. The error names the path of the key.
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

@@ -1,4 +1,4 @@
-/// The table of keys of solvers (see scene/keys.hpp).
+/// The table of the keys of solvers; see scene/keys.hpp. Reading, checking, messages and the generated page use it.
 #pragma once
 
 #include "bin_scenes/scene/key.hpp"

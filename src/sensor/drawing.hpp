@@ -1,5 +1,6 @@
-/// A view whose triangles are drawn: what a ray through each pixel's centre would meet, in double precision, at a
-/// fraction of the time, and each part's silhouette with it. Triangles are few, and pixels many.
+/// Makes a view by drawing triangles (rasterisation) instead of casting rays. The result is what a ray through the
+/// centre of each pixel would meet, in double precision and in a fraction of the time, together with the silhouette of
+/// each part. It is faster because a scene has fewer triangles than pixels; it requires a lens without distortion.
 #pragma once
 
 #include "bin_scenes/sensor/silhouettes.hpp"

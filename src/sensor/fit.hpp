@@ -1,4 +1,4 @@
-/// Least-squares balls and planes.
+/// Fits balls and planes to points by least squares, for the quality figures of sensors (sensor/metrics.hpp).
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

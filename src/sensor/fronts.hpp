@@ -1,4 +1,5 @@
-/// Whether the back of a triangle of a mesh is ever seen from outside.
+/// Determines whether the back of any triangle of a mesh can be seen from outside. If not, views need to draw front
+/// sides only.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
-/// Directions of a camera's pixels: Lens::ray at pixel centres, with what is the same for a row or a column found once.
+/// Directions of the pixels of a camera: Lens::ray() at pixel centres, where everything that is constant for a row or a
+/// column is computed once.
 #pragma once
 
 #include "bin_scenes/sensor/lens.hpp"

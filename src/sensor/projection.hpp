@@ -1,4 +1,5 @@
-/// Meshes as a pinhole sees them, their triangles sorted by rows of its image.
+/// Projects meshes into the image of a pinhole camera, and sorts their triangles by the rows that they cover.
+/// drawing.hpp and spots.hpp draw from it.
 #pragma once
 
 #include "bin_scenes/sensor/lens.hpp"

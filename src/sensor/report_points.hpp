@@ -1,4 +1,5 @@
-/// From the depths that a true device measured to those that its calibration makes of them (calibration.hpp).
+/// Converts the depths that a true device measured into those that it reports with its assumed calibration
+/// (sensor/calibration.hpp).
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

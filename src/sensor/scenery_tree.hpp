@@ -1,4 +1,5 @@
-/// A mesh and its search tree in Embree, with data of its triangles: made once a model.
+/// A mesh with its search tree in Embree and data of its triangles. It is made once for each model. Only this layer
+/// uses Embree.
 #pragma once
 
 #include "bin_scenes/sensor/scenery.hpp"

@@ -1,4 +1,4 @@
-/// The table of keys of sensors (see scene/keys.hpp); those of the models come from their SensorModel.
+/// The table of the keys of sensors; see scene/keys.hpp. The keys of sensor models come from their SensorModel.
 #pragma once
 
 #include "bin_scenes/sensor/calibration.hpp"

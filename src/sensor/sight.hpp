@@ -1,4 +1,5 @@
-/// Which points a light shines on without anything between: most of them, found without a ray each.
+/// Determines which points a light reaches without occlusion. For most points, this is decided for a whole region and
+/// without a ray for each point.
 #pragma once
 
 #include "bin_scenes/sensor/lens.hpp"

@@ -1,4 +1,4 @@
-/// Smoothing of measured depth that keeps its edges.
+/// Smooths measured depth and keeps its edges (SmoothingFilter in sensor/filter.hpp).
 #pragma once
 
 #include "bin_scenes/sensor/filter.hpp"

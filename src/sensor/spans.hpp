@@ -1,4 +1,4 @@
-/// Which pixel centres a triangle covers.
+/// Determines which pixel centres a triangle covers.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,5 +1,5 @@
-/// What lies nearest at some places of an image: triangles are drawn over these places alone. It is what a ray through
-/// each would meet, in double precision; where places are many, at a fraction of the time.
+/// Finds the nearest surface at given places of an image, by drawing triangles at these places only. The result is what
+/// a ray through each place would meet, in double precision; if there are many places, it takes a fraction of the time.
 #pragma once
 
 #include "sensor/projection.hpp"

@@ -1,4 +1,4 @@
-/// Bodies of known shape to measure a sensor by: plates, steps and balls, placed in an otherwise empty world.
+/// Targets for measuring a sensor: plates, steps and balls of known shape, placed in an otherwise empty world.
 #pragma once
 
 #include "bin_scenes/sensor/scenery.hpp"

@@ -1,4 +1,5 @@
-/// On which device the sphere solver runs if a request leaves it open: where a standard heap took less time.
+/// Selects the device for the solver `sphere` if the request leaves it open: the one on which a standard heap took less
+/// time. The measurement is made once and stored.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

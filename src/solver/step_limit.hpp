@@ -1,6 +1,6 @@
-/// How a stretch of simulated time is cut into steps, and how long a step may be for the parts that are simulated with
-/// it: what is a short step for a part of 5 cm lets one of half a millimetre fall by its own height. Shared by the
-/// solvers, which lie below this layer's library: hence inline.
+/// Divides an interval of simulated time into steps, and limits the length of a step for the parts that are simulated:
+/// a step that is short for a part of 5 cm lets a part of half a millimetre fall by its own height. All solvers use
+/// these functions, which are inline because the solvers are below this layer's library.
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"

@@ -1,4 +1,4 @@
-/// What of an audit is above its limit, and which parts and images that is.
+/// Compares the results of an audit with its limits, and names the parts and images that exceed them.
 #pragma once
 
 #include "tool/audit_state.hpp"

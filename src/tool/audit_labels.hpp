@@ -1,4 +1,5 @@
-/// The labels of a BOP image against the models at their stated poses: masks, depth, missing files, exchanged parts.
+/// Compares the labels of a BOP image with the models at their stated poses: masks, depth, missing files, and exchanged
+/// parts.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,4 @@
-/// The page of an audit: one file that needs no network.
+/// Writes the page of an audit as one file that needs no network.
 #pragma once
 
 #include "tool/audit_state.hpp"

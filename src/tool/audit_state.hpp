@@ -1,4 +1,4 @@
-/// One heap of a BOP set under the measures of an audit.
+/// Applies the measures of an audit to one heap of a BOP data set: overlap, gap and drift.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"

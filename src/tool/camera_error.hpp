@@ -1,4 +1,5 @@
-/// What the labels of many parts say together about the camera that a data set states.
+/// Estimates the error of the camera that a data set states, from the disagreement between labels and models of many
+/// parts.
 #pragma once
 
 #include <Eigen/Core>

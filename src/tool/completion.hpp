@@ -1,5 +1,5 @@
-/// Completion of the command line in shells, from the same tables as the command line itself: its commands and options,
-/// the keys of requests with their values, presets.
+/// Completion of the command line in shells. It uses the same tables as the command line itself: commands and options,
+/// keys of requests with their values, and presets.
 #pragma once
 
 #include <CLI/CLI.hpp>

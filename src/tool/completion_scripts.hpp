@@ -1,4 +1,4 @@
-/// src/tool/completion.bash and .zsh as texts (completion_scripts.cpp.in).
+/// The texts of src/tool/completion.bash and .zsh, which the build inserts (completion_scripts.cpp.in).
 #pragma once
 
 namespace bin_scenes {

@@ -1,5 +1,5 @@
-/// What a first request needs to know of a part: in which unit its file is, how large a bin its heap wants, and where a
-/// sensor sees that bin.
+/// Determines what `bin_scenes new` writes into a first request: the unit of the model file, a bin of suitable size for
+/// the heap, and a sensor pose that sees this bin.
 #pragma once
 
 #include "bin_scenes/mesh/mesh_loader.hpp"

@@ -1,4 +1,4 @@
-/// SIGINT and SIGTERM, as the commands take them.
+/// Handles SIGINT and SIGTERM for the commands, which then stop in an orderly manner.
 #pragma once
 
 #include <sys/types.h>

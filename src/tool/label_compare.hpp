@@ -1,4 +1,4 @@
-/// How well a mask agrees with the silhouette that a model has at its stated pose: overlap and shift.
+/// Compares a mask with the silhouette of the model at its stated pose: overlap and displacement.
 #pragma once
 
 #include "dataset/bop_files.hpp"

@@ -1,5 +1,5 @@
-/// One line on a terminal that says how far a job is and how long it still takes. Where standard error is no terminal,
-/// a line every 30 s; BIN_SCENES_PROGRESS is another number of seconds, 0 for none.
+/// Prints the progress of a job and the remaining time in one line of a terminal. If standard error is not a terminal,
+/// a line is printed every 30 s; BIN_SCENES_PROGRESS sets another number of seconds, and 0 switches it off.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-/// Predicted noise of a sensor as a picture.
+/// Draws the predicted noise of a sensor as a picture.
 #pragma once
 
 #include "bin_scenes/sensor/metrics.hpp"

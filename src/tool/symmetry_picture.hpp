@@ -1,4 +1,4 @@
-/// A part with the axes of its symmetries, to look at.
+/// Draws a part with the axes of its symmetries, for inspection.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,4 @@
-/// The option --unit.
+/// The option --unit, which several commands share.
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

@@ -1,4 +1,4 @@
-/// The cloud of a sensor, read back from the files of a finished scene.
+/// Reads the cloud of a sensor from the files of a finished scene, for the page of `view`.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

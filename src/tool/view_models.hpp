@@ -1,4 +1,4 @@
-/// Finds the model files of a finished scene again.
+/// Finds the model files of a finished scene again, for the page of `view`.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

@@ -1,7 +1,7 @@
-// Which candidates of a pair become contacts: the deepest, then again and again the one with the highest score: far
-// from those chosen, in position and normal alike, deep ones preferred, and what is about to touch to what is farther
-// off; contacts of the last step have a small advantage, so that the choice does not flicker. `size`: of the smaller
-// part (m).
+// Selects the candidates of a pair that become contacts. The deepest candidate is first. Then, repeatedly, the one with
+// the highest score is added. The score is high for candidates that are far from the selected ones in position and
+// normal, that are deep, or that are about to touch. Contacts of the last step have a small advantage, so that the
+// selection does not alternate from step to step. `size` is that of the smaller part (m).
 
 const float TWIN = 1e-3f;    // size: as near as that is the same contact
 const float ALIKE = 0.9f;    // cosine of normals of contacts that may hand their force on

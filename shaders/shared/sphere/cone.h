@@ -1,9 +1,9 @@
-// The directions in which a point of a part's surface can be pressed: its normal cone. Before it: Cone,
-// bounds_of(cone), bound_at(cone, i), axis_of(cone), spread_of(cone).
+// The normal cone of a point on the surface of a part: the directions in which contacts may press on it. The includer
+// defines before: Cone, bounds_of(cone), bound_at(cone, i), axis_of(cone), spread_of(cone).
 //
-// The grid of a distance field rounds edges off, so within a cell of one its gradient leans over; of two parts whose
-// edges lie flush it would press one sideways off the other. Such a direction is turned into the cone (touch.h says
-// when).
+// The grid of a distance field rounds edges off, so that the gradient is tilted within one cell of an edge. If two
+// parts lie with their edges flush, this gradient would push one part sideways off the other. Such a direction is
+// rotated into the cone (touch.h states when).
 
 const float LEAST_LEFT = 0.1f;  // of a unit direction: what leans over more than 84 degrees does not press
 const int CONE_SWEEPS = 8;      // of cyclic projection; two suffice where the bounds are perpendicular

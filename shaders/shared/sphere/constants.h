@@ -1,4 +1,4 @@
-// Numbers that both forms of the default sphere solver go by, as macros: they also give the sizes of arrays.
+// Constants that both forms of the default solver use. They are macros, because they are also the sizes of arrays.
 #ifndef SHARED_SPHERE_CONSTANTS_H
 #define SHARED_SPHERE_CONSTANTS_H
 #define SPHERE_MAX_CONTACTS 8   // per pair, after reduction; with more, faces on each other sway

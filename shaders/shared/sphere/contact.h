@@ -1,6 +1,7 @@
-// What a contact is in the solve (sequential impulses, Catto 2005, "Iterative dynamics with temporal coherence"; soft
-// contacts, Catto 2024, "Solver2D"). Impulses are those of one sub-step (N s); speeds are b's away from a, m/s; gaps
-// are negative where parts overlap, m. In C++ Real is eight contacts at once (lanes.hpp).
+// One contact in the solve (sequential impulses, Catto 2005, "Iterative dynamics with temporal coherence"; soft
+// contacts, Catto 2024, "Solver2D"). Impulses are those of one sub-step (N s). Speeds are those of b relative to a
+// along the normal (m/s), positive if the bodies separate. Gaps are in m, negative where the bodies overlap. In C++,
+// Real is a vector of eight contacts (lanes.hpp).
 #ifndef SHARED_SPHERE_CONTACT_H
 #define SHARED_SPHERE_CONTACT_H
 

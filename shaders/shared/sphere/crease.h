@@ -1,9 +1,9 @@
-// Contacts in creases: sharp edges where a surface folds inwards, as those of a pit or a slot. The distance there is
-// the least of those to the walls that meet. The grid of a field lets it bend over two cells, short of the walls: what
-// fits into the crease stood off its walls by up to a third of a cell, and a peg did not enter its hole. And a point in
-// a crease is held by each wall, not by the nearest alone.
+// Contacts in creases, which are sharp edges where a surface folds inwards, such as those of a pit or a slot. The true
+// distance there is the smaller one of the distances to the two walls. The grid of a field rounds it over two cells: a
+// part that fits into the crease was held off its walls by up to a third of a cell, and a peg did not enter its hole.
+// In addition, a point in a crease must be held by each wall, not by the nearer one alone.
 //
-// Before it: edge.h.
+// The includer includes edge.h before.
 
 const float CREASE_REACH = 2.0f;  // cells: what bends the grid's distances lies as near
 const float CREASE_DEPTH = 0.5f;  // cells: what is deeper in a wall may be on the other side of it

@@ -1,5 +1,5 @@
-// Steps are cut for as long as something is fast: parts would fly through each other, and contacts would pull at levers
-// that have long turned away.
+// Steps are shortened while any body is fast. Otherwise parts would pass through each other, and contacts would act on
+// lever arms whose direction has changed since.
 const float LONGEST_MOVE = 1.0f;   // of the fastest part in one step: thicknesses of the thinnest part
 const float LONGEST_TURN = 0.4f;   // rad; beyond, also
 const float TURN_OF_A_CUT = 0.1f;  // rad: keeps a tumbling part's energy and angular momentum

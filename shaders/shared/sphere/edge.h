@@ -1,12 +1,12 @@
 // Contacts at sharp edges (Macklin et al. 2020, "Local optimization for robust signed distance field collision"). The
-// grid of a distance field rounds them off: within a cell of one its gradient leans over, by up to half the angle
-// between the faces, and its depth is of neither face. Where an edge of one part meets an edge or a corner of the
-// other, both are taken from the edges themselves.
+// grid of a distance field rounds edges off: within one cell of an edge, its gradient is tilted by up to half the angle
+// between the faces, and its depth belongs to neither face. Where an edge of one part meets an edge or a corner of the
+// other, depth and normal are therefore computed from the edges themselves.
 //
-// Before it: field.h, cone.h, Samples, node_at(samples, i), Edge (a, b: nodes; cone; length in m; sharp: two faces meet
-// there, into which the first two bounds of the cone point), edge_at(samples, e), and edges_near(samples, field,
-// point): a Range of listed_edge(samples, k) in ascending order. Edges from first_crease(samples) on fold inwards:
-// crease.h.
+// The includer defines before: field.h, cone.h, Samples, node_at(samples, i), Edge (a, b: nodes; cone; length in m;
+// sharp: two faces meet there, into which the first two bounds of the cone point), edge_at(samples, e), and
+// edges_near(samples, field, point): a Range of listed_edge(samples, k) in ascending order. Edges from
+// first_crease(samples) on fold inwards: crease.h.
 
 INLINE bool is_crease(IN(Samples) samples, uint e) {
   return e >= first_crease(samples);

@@ -1,5 +1,6 @@
-// The distance field of a part: trilinear on a grid, or the closed form of a ball. Before it: Field (cell, padding,
-// ball), and behind it sample_field(field, point) and sample_field(field, point, gradient), by cell_at().
+// The distance field of a part: trilinear interpolation on a grid, or the closed form of a ball. The includer defines
+// before: Field (cell, padding, ball); and afterwards: sample_field(field, point) and sample_field(field, point,
+// gradient), by means of cell_at().
 
 // Where a point of a grid lies: values at the corners of its cell (m; x fastest, then y, then z), its place in the cell
 // (0 to 1), and the distance to the grid from a point beyond it (m).

@@ -1,11 +1,11 @@
-// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
-// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
-// (Contensou, "Couplage entre frottement de glissement et frottement de pivotement", 1963), and is tipped over its rim
-// by its radius times the force, the moment of rolling friction. Where contacts lie farther apart, they do it
-// themselves. Once a sub-step, when the forces of all contacts have begun: before, turns are those of a body in the
-// air.
+// Friction patches. Contacts of a manifold that press within a small area are treated as a disk of contact, which also
+// resists rotation of one body relative to the other. A disk with even pressure resists spin about its normal with a
+// torque of 2/3 of its radius times the friction force (Contensou, "Couplage entre frottement de glissement et
+// frottement de pivotement", 1963). It tips over its rim at a torque of its radius times the normal force, which is the
+// torque of rolling friction. Contacts that are farther apart resist rotation by themselves. Patches are evaluated once
+// per sub-step, when the forces of all contacts have been applied; before that, bodies rotate as in free flight.
 //
-// To use: gather() of all contacts, close_patch(), spread() of all contacts, then both moments.
+// Use: gather() for all contacts, close_patch(), spread() for all contacts, then both torques.
 struct Patch {
   Real impulse;          // N s, of all contacts
   Real3 center, normal;  // m from a's centre of mass

@@ -1,4 +1,5 @@
-// The plan of a step: how often what is done in it. Both forms go by it.
+// The plan of a step: how many sub-steps, sweeps and relaxation sweeps are done. The CPU form and the GPU form of the
+// solver both use it.
 #ifndef SHARED_SPHERE_PLAN_H
 #define SHARED_SPHERE_PLAN_H
 struct StepPlan {

@@ -1,5 +1,6 @@
-// The rim of a wall against the field of a part that lies across it: a line passes between the part's nodes. One
-// candidate for each place along it where it is nearest, or deepest. Before it: slide.h.
+// The rim of a wall of the bin against the field of a part that lies across it. The line of the rim may pass between
+// the nodes of the part. One candidate is found for each place along the line where it is nearest, or deepest. The
+// includer includes slide.h before.
 
 const int RIM_ROUNDS = 8;  // each takes a third off where the nearest place may be
 

@@ -1,6 +1,7 @@
-// Where a contact's levers, its normal and its gap are of, while it is solved. Levers and normals are of the mean of
-// the sub-steps' beginnings: those of the step's start turn what hangs into what gains energy (a yoke on a ridge 8 % a
-// second), with those of half of the whole step it loses as much.
+// The pose at which the lever arms, the normal and the gap of a contact are evaluated while it is solved. Lever arms
+// and normals belong to the mean of the times at which the sub-steps begin. Those of the start of the step would add
+// energy to hanging parts (for a yoke on a ridge 8 % per second), and those of half of the whole step would remove as
+// much.
 
 const float LEAST_TURN = 1e-5f;  // rad; below, a lever moves by less than contacts overlap
 

@@ -1,7 +1,7 @@
-// What the nodes of a body are tested against, and how nodes of curved faces move on them. Before it: field.h, cone.h,
-// Samples, node_at(samples, i), cone_at(samples, i), face_spacing_of(samples), Plane, normal_of(plane),
-// offset_of(plane), is_wall(plane), Carry (rotation, offset), and Solid: a field, or a plane of a bin whose walls end
-// at `top` (m).
+// The solids against which the nodes of a body are tested, and the movement of nodes of curved faces on them. The
+// includer defines before: field.h, cone.h, Samples, node_at(samples, i), cone_at(samples, i),
+// face_spacing_of(samples), Plane, normal_of(plane), offset_of(plane), is_wall(plane), Carry (rotation, offset), and
+// Solid: a field, or a plane of a bin whose walls end at `top` (m).
 
 // Distance to the solid beyond a plane, and the direction out of it. A wall ends at the bin's top: it is the corner
 // between its inner face and the rim's level, as thick as it takes.

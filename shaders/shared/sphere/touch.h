@@ -1,9 +1,12 @@
-// From a sample near another part to a candidate for a contact. Before it: crease.h, slide.h, radius_of(samples), and
-// View: samples, other (those of the field's body), own (field of the samples' body), field; to_field, to_a (Carry:
-// from the samples' frame to the field's, and from there to that of the pair's first body, the same if side is
-// SPHERE_SIDE_B); drift, twist (m, rad: how the samples' body goes on over the field's until the step ends); ahead (m:
-// 0 to begin with); margin (m: up to which distance); way_back. Also emit(view, on_a, normal, separation, feature), all
-// in the frame of a.
+// Turns a sample of one part that is near another part into a candidate for a contact. docs/develop/contacts.md
+// contains the drawing and the derivation.
+//
+// The includer defines before: crease.h, slide.h, radius_of(samples), emit(view, on_a, normal, separation, feature)
+// with all vectors in the frame of a, and View with these members: samples; other (samples of the field's body); own
+// (field of the samples' body); field; to_field and to_a (Carry: from the samples' frame to the frame of the field, and
+// from there to the frame of the pair's first body, which is the same if side is SPHERE_SIDE_B); drift and twist (m,
+// rad: the predicted motion of the samples' body relative to the field's body until the step ends); ahead (m, initially
+// 0); margin (m, the largest distance of a candidate); way_back.
 
 const float NEARLY_ALL = 0.99f;  // of an exit a cone must leave: 8 degrees
 const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: faces that lie on each other

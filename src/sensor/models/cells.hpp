@@ -1,5 +1,5 @@
-/// A pixel in sixteen cells. No two are asked in one column or row of it, so that an edge along either moves from cell
-/// to cell.
+/// Divides a pixel into sixteen cells for anti-aliasing. The sample points of no two cells are in the same column or
+/// row of the pixel, so that an edge that moves across the pixel changes one cell after the other.
 #pragma once
 
 #include <algorithm>

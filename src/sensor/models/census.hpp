@@ -1,9 +1,9 @@
-/// A block matcher of census signatures, like those that compact stereo cameras have in hardware: two images are
-/// compared by bits that say which of two pixels is brighter, so that neither gain nor offset of a camera counts
-/// (Zabih, Woodfill 1994, "Non-parametric local transforms for computing visual correspondence"; pairs that lie
-/// opposite each other: Spangenberg et al. 2013, "Weighted semi-global matching and center-symmetric census
-/// transform"). Names of its tests are those of the settings that librealsense lists for the cameras D400 (second peak,
-/// left and right agree); the device's own matcher is not published in full.
+/// A stereo matcher for census signatures, like those in the hardware of compact stereo cameras. Two images are
+/// compared by bits that state which of two pixels is brighter, so that gain and offset of the cameras do not matter
+/// (Zabih, Woodfill 1994, "Non-parametric local transforms for computing visual correspondence"; pairs of opposite
+/// pixels: Spangenberg et al. 2013, "Weighted semi-global matching and center-symmetric census transform"). Its tests
+/// have the names of the settings that librealsense lists for the cameras D400 (second peak, left-right agreement); the
+/// matcher of that device is not published in full.
 #pragma once
 
 #include "sensor/models/stereo.hpp"

@@ -1,5 +1,6 @@
-/// What match_census() makes of a surface, by formula: disparities blended over the window at small steps, gaps at
-/// large ones, and holes where the window holds few dots by chance.
+/// Predicts by formula what match_census() would return for a surface: disparities blended over the window at small
+/// depth steps, gaps at large steps, and holes where the window contains few dots by chance. The analytic fidelity of
+/// `stereo` uses it.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

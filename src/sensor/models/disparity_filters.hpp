@@ -1,5 +1,5 @@
-/// What a stereo camera does with the disparities that its matcher found. Images of disparities are row-major, in
-/// pixels; NaN = unmatched. No filter fills holes.
+/// The post-processing of disparities in a stereo camera. Images of disparities are row-major, in pixels; NaN means
+/// unmatched. No filter fills holes.
 #pragma once
 
 #include "bin_scenes/sensor/stereo_pipeline.hpp"

@@ -1,6 +1,6 @@
-/// How much light a rough mirror sends back that met one of its facets, and what the others add: of light that leaves a
-/// facet towards another one a single reflection knows nothing, up to 70 % of all (Kulla, Conty 2017, "Revisiting
-/// physically based shading at Imageworks").
+/// The light that is reflected by the microscopic facets of a rough mirror: by one facet, and by further facets after
+/// it. Formulas for a single reflection neglect light that leaves one facet towards another one, which is up to 70 % of
+/// all light (Kulla, Conty 2017, "Revisiting physically based shading at Imageworks").
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

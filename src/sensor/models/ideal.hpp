@@ -1,4 +1,4 @@
-/// Exact depth at pixel centres.
+/// The sensor model `ideal`: exact depth at pixel centres, without noise or occlusion of light.
 #pragma once
 
 #include "bin_scenes/sensor/models.hpp"

@@ -1,4 +1,5 @@
-/// A camera that takes grey or colour images by the light of lamps (path_tracer.hpp).
+/// The sensor model `image`: a camera that takes grey or colour pictures in the light of lamps. path_tracer.hpp
+/// computes the light.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

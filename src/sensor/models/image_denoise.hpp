@@ -1,8 +1,8 @@
-/// Takes the grain of few paths out of an image: each pixel becomes a mean of those around it that see the same face,
-/// or one that bends on from it, and whose light differs by no more than grain explains (Dammertz et al. 2010,
-/// "Edge-avoiding a-trous wavelet transform for fast global illumination filtering"; weights by variance: Schied et al.
-/// 2017, "Spatiotemporal variance-guided filtering"). A pixel across which two faces meet takes the light that each has
-/// beside it, by its share of the pixel.
+/// Removes Monte Carlo noise from images that are made with few light paths. Each pixel becomes a weighted mean of the
+/// pixels around it that see the same face, or a face that continues it, and whose radiance differs by no more than the
+/// noise explains (Dammertz et al. 2010, "Edge-avoiding a-trous wavelet transform for fast global illumination
+/// filtering"; weights by variance: Schied et al. 2017, "Spatiotemporal variance-guided filtering"). A pixel that two
+/// faces share takes the radiance that each face has beside it, weighted by the share of the face in the pixel.
 #pragma once
 
 #include "bin_scenes/sensor/view.hpp"

@@ -1,4 +1,5 @@
-/// A chip: shot noise, read noise and steps of the converter. A signal is a share of the full well.
+/// The image sensor of a camera: shot noise, read noise, and quantisation. A signal is a share of the full-well
+/// capacity.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,6 +1,7 @@
-/// Indirect light of all pixels of an image. It varies slowly along a face: it is gathered at nodes, and pixels take it
-/// from the nodes of their own face (Ward, Rubinstein, Clear 1988, "A ray tracing solution for diffuse
-/// interreflection"). Nodes lie a few pixels apart, closer together where other surfaces are near.
+/// The indirect light of all pixels of an image. Indirect light varies slowly along a face. It is therefore computed at
+/// nodes, and pixels interpolate it from nodes on their own face (Ward, Rubinstein, Clear 1988, "A ray tracing solution
+/// for diffuse interreflection"). Nodes are a few pixels apart, and closer together near other surfaces.
+/// docs/develop/indirect_light.md derives the interpolation.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

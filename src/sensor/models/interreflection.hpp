@@ -1,6 +1,6 @@
-/// Light that reaches a point via other surfaces. Patterns are linear in light: what a point gets is a set of
-/// paths, each from a place of the pattern and with a weight, and serves every pattern (Gupta et al. 2013, "A practical
-/// approach to 3D scanning in the presence of interreflections, subsurface scattering and defocus").
+/// Light that reaches a point by way of other surfaces. Patterns are linear in light: the light at a point is a set of
+/// paths, each with a place in the pattern and a weight, and the same set serves every pattern (Gupta et al. 2013, "A
+/// practical approach to 3D scanning in the presence of interreflections, subsurface scattering and defocus").
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,4 +1,4 @@
-/// The lamps of an image: points drawn on them, and what a ray meets of them.
+/// The lamps of the sensor model `image`: random points on a lamp, and the radiance that a ray finds if it hits a lamp.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

@@ -1,11 +1,12 @@
-/// A sheet of light and a camera, moved over the bin together. Each step gives a profile, a row of the image.
+/// The sensor model `laser_line`: a sheet of light and a camera that move over the bin together. Each step gives one
+/// profile, which is a row of the image.
 ///
-/// The line lies across the image's rows or its columns, whichever the sheet's normal is nearer to. Along it the camera
-/// has one sample a row (or column); in each the device seeks the line's peak between columns (or rows), and the ray of
-/// the peak meets the sheet in the point measured.
+/// The line crosses the rows or the columns of the camera image, whichever is nearer to the normal of the sheet. The
+/// camera has one sample per row (or column) along the line. In each of them, the device searches the peak of the line
+/// across columns (or rows), and the ray of the peak intersects the sheet at the measured point.
 ///
-/// Light that other surfaces send on lies over the lines; where it is brightest beside them, it is taken for a line
-/// itself (sheet_glow.hpp).
+/// Light that other surfaces reflect adds to the lines. Where it is brightest beside them, it is mistaken for the line
+/// (sheet_glow.hpp).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,4 +1,4 @@
-/// Sub-pixel position of a laser line in a column of the image.
+/// Finds the position of a laser line in one column of the image with sub-pixel accuracy.
 #pragma once
 
 #include <cstddef>

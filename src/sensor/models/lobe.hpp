@@ -1,4 +1,5 @@
-/// Directions from which a surface takes the light that it sends to an eye, drawn as densely as it takes it.
+/// Random directions from which a surface reflects light towards the eye. Their density is proportional to the share of
+/// light that is reflected from each direction (importance sampling).
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

@@ -1,4 +1,5 @@
-/// The interface of all sensor models, and their result.
+/// The result of a sensor model: the measured values of all pixels. All models return this struct; of_sensor.hpp turns
+/// it into a RangeImage.
 #pragma once
 
 #include "bin_scenes/sensor/validity.hpp"

@@ -1,4 +1,5 @@
-/// What the files *_model.cpp share: from a request's sensor to a model, and from what it measures to an image.
+/// Functions that the files *_model.cpp share: they convert the sensor of a request to the parameters of a model, and
+/// the measurement of a model to an image.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

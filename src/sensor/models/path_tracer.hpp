@@ -1,16 +1,16 @@
-/// Radiance that reaches a camera's pixels after up to two reflections at other surfaces (Kajiya 1986, "The rendering
-/// equation"). Where a path meets a surface, a point on a lamp is drawn and asked whether it is seen, and a direction
-/// of the surface's lobe is followed; what both find is weighted by how likely each was to find it. On matte surfaces
-/// lamps are found by their points alone.
+/// The radiance that reaches the pixels of a camera after up to two reflections at other surfaces (Kajiya 1986, "The
+/// rendering equation"). Where a path meets a surface, a random point on a lamp is tested for visibility, and a
+/// direction of the surface's lobe is followed. The results of both methods are weighted by how likely each was to find
+/// the path (multiple importance sampling). On matte surfaces, only the points on lamps are used.
 ///
-/// From the second surface on, mirrors are at least as rough as `soft`: what a few of the paths see of a lamp via
-/// two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and robust
-/// light transport").
+/// From the second surface on, mirrors are at least as rough as `soft`. Otherwise the few paths that find a lamp by way
+/// of two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
+/// robust light transport").
 ///
-/// Points that are drawn fill their squares evenly (Sobol's, each digit flipped by a key of the pixel), so that images
-/// depend on seed, scene, sensor and pixel alone. At what a pixel sees, half of its paths draw a point on a lamp and
-/// the others follow the lobe; half of these go on to further surfaces, where each does both. What they find counts two
-/// and four times: light from there varies slowly.
+/// The random points fill their squares evenly (Sobol points whose digits are flipped by a key of the pixel), so that
+/// images depend on seed, scene, sensor and pixel only. At the surface that a pixel sees, half of its paths draw a
+/// point on a lamp and the others follow the lobe. Half of the latter continue to further surfaces, where each does
+/// both. Their contributions count two and four times, because light from there varies slowly.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

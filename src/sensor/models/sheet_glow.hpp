@@ -1,9 +1,10 @@
-/// Light of a laser's sheet that reaches the camera via other surfaces: where a shiny surface throws the line
-/// onto another one, the camera sees a second line.
+/// The light of a laser sheet that reaches the camera by way of other surfaces. Where a shiny surface reflects the line
+/// onto another surface, the camera sees a second line.
 ///
-/// Light is followed from the line: rays of the fan go on from what they meet, in directions drawn from the surface's
-/// lobe, and light a spot on the next surface. Spots are as large as it takes to touch each other (Schjoth et al. 2007,
-/// "Photon differentials"): a mirror's line stays sharp, what a matte surface sends is smooth.
+/// Light is followed from the line: rays of the fan continue from the surface that they meet, in random directions of
+/// the surface's lobe, and light a spot on the next surface. Spots are large enough to touch each other (Schjoth et al.
+/// 2007, "Photon differentials"), so that the line reflected by a mirror stays sharp while light from a matte surface
+/// is smooth.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

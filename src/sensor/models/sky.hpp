@@ -1,6 +1,7 @@
-/// The sky as an equirectangular picture, drawn from as densely as it shines (Pharr, Jakob, Humphreys, "Physically
-/// based rendering", 4th edition, 12.5): a pixel by rows and columns, a direction in its solid angle evenly. A pixel
-/// shines evenly, so that what is drawn is exact.
+/// The sky as an equirectangular picture, from which directions are drawn in proportion to their radiance (Pharr,
+/// Jakob, Humphreys, "Physically based rendering", 4th edition, 12.5): first a pixel by row and column, then a uniform
+/// direction within its solid angle. The radiance is constant within a pixel, so that the probability of a direction is
+/// exact.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

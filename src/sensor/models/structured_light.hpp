@@ -1,17 +1,19 @@
-/// A fringe projector beside a camera. Both fidelities share geometry, light and the chip's noise: `analytic` takes the
-/// noise of the column from its formula, `decoded` makes the images and reads the column from them.
+/// The sensor model `structured_light`: a fringe projector beside a camera. Both fidelities share geometry, light and
+/// the noise of the image sensor. `analytic` computes the noise of the projector column from a formula; `decoded` makes
+/// the images and decodes the column from them.
 ///
-/// With s the signal of the projector's white at a pixel, the fringe there has mean A = ambient + s * mean and
-/// amplitude B = s * amplitude * (blur by the pixel's footprint). The chip's noise sigma(A) makes the phase err by
-/// sqrt(2 / steps) sigma / B and the column by period / 2 pi of that; the ray meets the plane of that column.
+/// Let s be the signal of the projector's white at a pixel. The fringe there has the mean A = ambient + s * mean and
+/// the amplitude B = s * amplitude * (blur by the pixel's footprint). The noise sigma(A) of the image sensor causes a
+/// phase error of sqrt(2 / steps) sigma / B and a column error of period / (2 pi) times that. The measured point is the
+/// intersection of the pixel's ray with the plane of that column.
 ///
-/// Where a pixel sees one face in even light, what its centre sees is enough. Near edges of faces, of light and of
-/// albedo, the light is summed over cells of a sixteenth of a pixel, weighted by the pixel's box and the lens's blur
+/// Where a pixel sees one face in even light, its centre suffices. Near edges of faces, of light and of albedo, the
+/// light is summed over cells of a sixteenth of a pixel, weighted by the pixel's area and the blur of the lens
 /// (structured_light_strip.hpp).
 ///
-/// Light via other surfaces adds a fringe of its own, of another phase: the sum of both is read
-/// (indirect_field.hpp). Where it is brighter than the projector's own it may turn bits of the Gray code; there both
-/// fidelities make the images. A second fringe of another period may show whether light bounced (ReflectionFilter).
+/// Light by way of other surfaces adds a fringe with another phase, and the sum of both is decoded
+/// (indirect_field.hpp). Where this light is brighter than direct light, it may flip bits of the Gray code; there, both
+/// fidelities make the images. A second fringe with another period may detect reflected light (ReflectionFilter).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,5 +1,5 @@
-/// Nguyen, Izadi, Lovell 2012, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and Tracking", equations 1
-/// and 2, with their constants as settings.
+/// Noise of time-of-flight depth: equations 1 and 2 of Nguyen, Izadi, Lovell 2012, "Modeling Kinect Sensor Noise for
+/// Improved 3D Reconstruction and Tracking". The constants of the paper are the default settings.
 #pragma once
 
 #include "bin_scenes/scene/sensor_models.hpp"

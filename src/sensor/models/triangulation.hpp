@@ -1,5 +1,5 @@
-/// Depth from a projector column: the camera's ray meets the surface that the column lights, a plane unless the
-/// projector's lens is distorted.
+/// Computes depth from a projector column: the intersection of the camera's ray with the surface that the column
+/// lights. This surface is a plane unless the lens of the projector is distorted.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

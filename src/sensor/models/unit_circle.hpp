@@ -1,4 +1,5 @@
-/// Cosine and sine of a drawn angle, at a fraction of the time of two calls and with the same bits in any library.
+/// The cosine and sine of a random angle. The computation takes a fraction of the time of two library calls and gives
+/// the same bits with every library.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

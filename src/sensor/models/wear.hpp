@@ -1,6 +1,7 @@
-/// Texture of a surface: scratches, oil and rust as grains of random place in the part's frame, cut by its surface.
-/// Their union covers a share of space that has a closed form: 1 - exp(-grains per volume * volume of one) (the Boolean
-/// model, Chiu, Stoyan, Kendall, Mecke 2013, "Stochastic geometry and its applications", chapter 3).
+/// The texture of a worn surface. Scratches, oil and rust are grains at random places in the frame of the part, which
+/// its surface cuts. The share of space that their union covers has a closed form: 1 - exp(-grains per volume * volume
+/// of a grain) (the Boolean model; Chiu, Stoyan, Kendall, Mecke 2013, "Stochastic geometry and its applications",
+/// chapter 3).
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

@@ -1,4 +1,4 @@
-/// Between the library's vocabulary and Bullet's, without a change of scale.
+/// Converts vectors and poses between the library's types and Bullet's, without changing the scale.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,4 +1,4 @@
-/// Bullet's discrete dynamics world with a second-order integrator: free flight, sliding and rolling follow their
+/// Bullet's discrete dynamics world with a second-order integrator. Free flight, sliding and rolling then follow their
 /// closed forms at any step size, and a body that tumbles freely keeps its energy and angular momentum.
 #pragma once
 

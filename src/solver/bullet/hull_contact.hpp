@@ -1,7 +1,8 @@
-/// Contact between convex pieces at their true surfaces. Bullet's own algorithm finds a whole contact patch only once
-/// cores overlap, and one point a step before that, so that flat parts rock until enough points have gathered; it also
-/// keeps a gap of both margins towards spheres, planes and triangles. Here GJK (EPA where cores overlap) gives the
-/// normal, margins are taken out again, and faces that lie against each other are clipped at once.
+/// Contact between convex pieces at their true surfaces. Bullet's own algorithm finds a whole contact patch only when
+/// the shrunken cores of the shapes overlap, and before that one point per step, so that flat parts rock until enough
+/// points have been collected; it also leaves a gap of both margins to spheres, planes and triangles. Here GJK (EPA
+/// where cores overlap) gives the normal, the margins are subtracted again, and faces that touch each other are clipped
+/// at once.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>

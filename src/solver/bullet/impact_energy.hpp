@@ -1,7 +1,7 @@
-/// Impacts that follow each other within one step have no common moment before them: each contact rebounds at a share
-/// of its own speed of approach, and together they may give back more than there was: a ball that rebounds from the
-/// floor under one that it had just parted from doubled the energy of both. Here bodies that rebound together have at
-/// most what they had before.
+/// Limits the energy of rebounds. Several impacts within one step have no common instant before them: each contact
+/// rebounds with a share of its own approach speed, and together they may return more energy than there was. For
+/// example, a ball that rebounded from the floor below another ball, from which it had just separated, doubled the
+/// energy of both. Here, bodies that rebound together have at most the energy that they had before.
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>

@@ -1,4 +1,4 @@
-/// Faces of a convex hull as Bullet clips them against each other.
+/// The faces of a convex hull in the form in which Bullet clips them against each other.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,4 @@
-/// Collision shapes of parts and bins in the scaled world.
+/// Makes Bullet's collision shapes of parts and bins in the scaled world (see bullet_solver.hpp).
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

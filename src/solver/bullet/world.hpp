@@ -1,4 +1,5 @@
-/// One world of the Bullet solver: bodies, walls, gravity, in a scale in which the median part is one unit.
+/// One world of the solver `bullet`: bodies, walls and gravity, at a scale at which the median part is one unit.
+/// BulletSolver converts between this scale and SI units.
 #pragma once
 
 #include "contact_solver.hpp"

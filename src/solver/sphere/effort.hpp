@@ -1,4 +1,5 @@
-/// Factor on the work on contacts that a heap needs, 1 for a few layers of thick parts of equal mass: World::effort.
+/// Computes the effort of a heap: the factor by which the solver multiplies its work on contacts (World::effort). It is
+/// 1 for a few layers of thick parts with equal masses, and larger for deep heaps, towers and unequal masses.
 #pragma once
 
 #include "solver/sphere/world.hpp"

@@ -1,4 +1,5 @@
-/// What holds of a world between the passes of a step: they assert it where they begin or end.
+/// Invariants of a world between the passes of a step. Passes assert them where they begin or end; they are evaluated
+/// only if assertions are on (core/assertion.hpp).
 #pragma once
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,5 +1,5 @@
-/// Between the common interface's terms and a world of the sphere solver: what both forms of it, the passes on the CPU
-/// and those on the GPU, build and answer alike.
+/// Converts between the common interface of solvers and a world of the default solver. The passes on the CPU and those
+/// on the GPU share these functions, so that both build the same world and give the same answers.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"

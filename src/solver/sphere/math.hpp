@@ -1,4 +1,5 @@
-/// Single-precision vocabulary of the sphere solver: what a GPU pass and its CPU twin both compute with.
+/// Vectors, rotations and poses in single precision, with which the CPU passes of the default solver compute exactly
+/// what their GPU form computes.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,5 +1,5 @@
-/// What the code that is compiled as GLSL, too (shaders/shared/sphere), needs in C++: GLSL's names for Eigen's types
-/// and functions.
+/// Provides GLSL's names for Eigen's types and functions, so that the code of shaders/shared/sphere can be compiled as
+/// C++ as well.
 #pragma once
 
 #include "shared/language.h"

@@ -1,5 +1,5 @@
-/// The default solver behind the common interface: surface samples of one part against the distance field of the
-/// other, sub-stepped soft contacts.
+/// Makes the default solver `sphere` on the CPU: surface samples of one part are tested against the distance field of
+/// the other, and sub-stepped soft contacts are solved.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"

@@ -1,4 +1,4 @@
-/// Where regions of a growing buffer lie: first fit. A region's place never matters to a result.
+/// Allocates regions in a growing buffer by first fit. The place of a region never influences a result.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/// What a device can hold.
+/// Determines how many bodies a world on the device may have: a work group of the device must be able to hold all of
+/// them.
 #pragma once
 
 #include "bin_scenes/gl/device.hpp"

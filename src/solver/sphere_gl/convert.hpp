@@ -1,4 +1,4 @@
-/// Between the twin's structs (solver/sphere/world.hpp) and those the shaders see (shared/sphere.h).
+/// Converts between the structs of the CPU passes (solver/sphere/world.hpp) and those of the shaders (shared/sphere.h).
 #pragma once
 
 #include "shared/sphere.h"

@@ -1,5 +1,5 @@
-/// The default solver as passes on the GPU, many worlds at once. Its passes on the CPU (solver/sphere) say what it
-/// computes; results agree in their statistics, not bit for bit.
+/// The default solver as passes on the GPU, for many worlds at once. The passes on the CPU (solver/sphere) are its
+/// specification. The statistics of the results agree, but the results are not equal bit for bit.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"

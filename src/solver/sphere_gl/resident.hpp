@@ -1,4 +1,4 @@
-/// What the host knows of a world on the device, and how it reads what the device left behind.
+/// The host's record of a world on the device, and how the host reads the results of the device.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"

@@ -1,5 +1,5 @@
-/// Collision shapes of all parts in the buffers that find_contacts reads: nodes, edges, clusters, distance fields one
-/// behind the other. A shape goes up once, however many worlds use it.
+/// The collision shapes of all parts in the buffers that find_contacts reads: nodes, edges, clusters and distance
+/// fields, one after the other. A shape is uploaded once, however many worlds use it.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"

@@ -1,5 +1,5 @@
-/// The passes of one step on the device. A pass has one name everywhere: shaders/thesis/<name>.comp, its method here,
-/// its timer and its twin on the CPU (twin.hpp).
+/// The passes of one step of the solver `thesis` on the device. A pass has the same name everywhere:
+/// shaders/thesis/<name>.comp, its method here, its timer, and its CPU twin (twin.hpp).
 #pragma once
 
 #include "bin_scenes/gl/prefix_sum.hpp"

@@ -1,5 +1,5 @@
-/// CPU twins of the passes in shaders/thesis: slow, obvious, single-threaded. They say what a pass means, and the tests
-/// hold the passes to them. Each works on Memory as its pass works on the buffers.
+/// CPU twins of the passes in shaders/thesis: slow, simple and single-threaded. They specify what a pass computes, and
+/// the tests compare the passes with them. Each twin works on Memory as its pass works on the buffers.
 #pragma once
 
 #include "memory.hpp"

@@ -1,4 +1,4 @@
-/// One world as the thesis's solver holds it between advances: what the shapes are, who is present and how they move.
+/// One world as the solver `thesis` stores it between two advances: shapes, present bodies, and their motion.
 #pragma once
 
 #include "bin_scenes/part/mass_properties.hpp"

@@ -1,6 +1,6 @@
-/// Parts of a world that are solved one by one: no manifold joins moving bodies of two of them. Their solves give the
-/// same bits in any order or at once, and however wide a world is, what is swept over again and again is a block's
-/// contacts, which the cache holds.
+/// Blocks: groups of bodies that can be solved one by one, because no manifold joins moving bodies of two blocks.
+/// Blocks give the same bits in any order or in parallel. Repeated sweeps concern the contacts of one block only, which
+/// fit into the cache however large a world is.
 #pragma once
 
 #include "core/disjoint_sets.hpp"

@@ -1,6 +1,7 @@
-/// Where the surfaces of two bodies, or of a body and the bin, are close: samples of each against the distance field
-/// of the other, edges by descent (Macklin et al. 2020, "Local optimization for robust signed distance field
-/// collision"). Few of them are chosen in the end (reduce.hpp).
+/// Finds the places where the surfaces of two bodies, or of a body and the bin, are close: samples of each body are
+/// tested against the distance field of the other one, and edges by a local descent (Macklin et al. 2020, "Local
+/// optimization for robust signed distance field collision"). The results are candidates; reduce.hpp selects few of
+/// them as contacts.
 #pragma once
 
 #include "solver/sphere/math.hpp"

@@ -1,4 +1,4 @@
-/// Normal cones: what shared/sphere/cone.h says of them, in C++.
+/// Normal cones: includes shaders/shared/sphere/cone.h as C++ and provides the functions that it requires.
 #pragma once
 
 #include "solver/sphere/shared_code.hpp"

@@ -1,5 +1,5 @@
-/// Contacts as the solver works on them (GLSL: contact_row.h): eight at a time, one of each of eight manifolds that
-/// share no moving body.
+/// Contacts in the form in which the solver processes them (GLSL: contact_row.h): eight at a time, one of each of eight
+/// manifolds that share no moving body.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"

@@ -1,4 +1,4 @@
-/// Sorting by small numbers, in linear time.
+/// Sorts items by small integers in linear time, and keeps the order of equal items.
 #pragma once
 
 #include "bin_scenes/core/assertion.hpp"

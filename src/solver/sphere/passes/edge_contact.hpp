@@ -1,4 +1,5 @@
-/// Contacts at sharp edges: what shared/sphere/edge.h and crease.h say of them, in C++.
+/// Contacts at sharp edges: includes shaders/shared/sphere/edge.h and crease.h as C++ and provides the functions that
+/// they require.
 #pragma once
 
 #include "solver/sphere/shapes/contact_samples.hpp"

@@ -1,4 +1,4 @@
-/// Friction of a bundle: against sliding, and of a patch against turns.
+/// The friction of eight contacts at once: against sliding, and of a contact patch against rotation.
 #pragma once
 
 #include "solver/sphere/passes/contact_rows.hpp"

@@ -1,4 +1,4 @@
-/// The gyroscopic torque of spinning parts whose inertia is not the same about all axes.
+/// The gyroscopic torque of spinning bodies whose moments of inertia are not all equal.
 #pragma once
 
 #include "solver/sphere/world.hpp"

@@ -1,4 +1,4 @@
-/// What a gripper does in the solve of a block: jaws that keep to their axis, and the pull of a vacuum.
+/// The effects of a gripper in the solve of a block: jaws that stay on their axis, and the pull of a vacuum.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"

@@ -1,6 +1,7 @@
-/// Arithmetic on eight values at once, by the vector types of GCC and Clang: +, -, *, comparisons and ?: work lane by
-/// lane. Each lane computes what a single float would, so that a result does not depend on its neighbours. Eight,
-/// though SSE and NEON hold four: a contact waits for the result of the one before, and a second four fill the wait.
+/// Arithmetic on eight values (lanes) at once, with the vector types of GCC and Clang: +, -, *, comparisons and ?: work
+/// lane by lane. Each lane computes what a single float would, so that a result does not depend on its neighbours.
+/// There are eight lanes although SSE and NEON registers hold four: a contact waits for the result of the previous one,
+/// and a second group of four uses this waiting time.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Work of a step in all threads.
+/// Runs the loops of a step in all threads.
 #pragma once
 
 #include "bin_scenes/core/cancel.hpp"

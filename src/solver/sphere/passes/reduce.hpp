@@ -1,4 +1,4 @@
-/// From the candidates of a pair to its manifold: which contacts stand for all, and the forces they begin with.
+/// Selects the contacts of a manifold from the candidates of a pair, and their initial forces from the last step.
 #pragma once
 
 #include "solver/sphere/passes/candidates.hpp"

@@ -1,4 +1,4 @@
-/// Newton's restitution, at the end of a step: what was hit parts at a share of the speed at which it met.
+/// Newton's restitution at the end of a step: bodies that collided separate with a share of their approach speed.
 #pragma once
 
 #include "solver/sphere/passes/contact_rows.hpp"

@@ -1,5 +1,5 @@
-/// Samples of one body against the distance field of another: nodes where they are, edges by descent (Macklin et al.
-/// 2020, "Local optimization for robust signed distance field collision").
+/// Tests the samples of one body against the distance field of another body: nodes at their positions, edges by a local
+/// descent (Macklin et al. 2020, "Local optimization for robust signed distance field collision").
 #pragma once
 
 #include "solver/sphere/passes/candidates.hpp"

@@ -1,5 +1,5 @@
-/// Nodes of curved faces slide along the face to the point nearest to the other part, or the bin: what
-/// shared/sphere/slide.h says of it, in C++.
+/// Nodes of curved faces slide along the face to the point that is nearest to the other part or to the bin. This header
+/// includes shaders/shared/sphere/slide.h as C++ and provides the functions that it requires.
 #pragma once
 
 #include "solver/sphere/passes/edge_contact.hpp"

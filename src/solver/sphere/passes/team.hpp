@@ -1,8 +1,9 @@
-/// Loops of a few microseconds, shared among threads: the colors of a large block. A parallel loop of the scheduler
-/// costs as much as such a color takes; here helpers wait for the next loop and claim pieces of it by one atomic
-/// ticket.
+/// Runs loops of a few microseconds in several threads: the colors of a large block. A parallel loop of the task
+/// scheduler would cost as much as such a color takes. Here, helper threads wait for the next loop and claim pieces of
+/// it with one atomic ticket.
 ///
-/// Whoever leads never waits for a helper to come, only for pieces that one has claimed: with none, it does all itself.
+/// The leading thread never waits for a helper to arrive, only for pieces that a helper has claimed: without helpers,
+/// it does all the work itself.
 #pragma once
 
 #include <tbb/task_arena.h>

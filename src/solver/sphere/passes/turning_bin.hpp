@@ -1,4 +1,5 @@
-/// What bodies feel of a bin that turns: Coriolis and centrifugal forces, and those of a spin that changes.
+/// The forces on bodies in a rotating bin: Coriolis and centrifugal forces, and the force due to changes of the angular
+/// velocity.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"

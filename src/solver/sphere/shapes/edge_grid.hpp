@@ -1,4 +1,4 @@
-/// Which edges of a part lie near a point: lists by blocks of its distance field's cells.
+/// Lists the edges of a part that are near a point, by blocks of cells of its distance field.
 #pragma once
 
 #include "solver/sphere/shapes/field.hpp"

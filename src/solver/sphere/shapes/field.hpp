@@ -1,5 +1,6 @@
-/// Distance field of a part in its body frame, and how the narrow phase asks it: one point with the gradient, or a
-/// bunch of points for their distances alone. The bunch is what nearly all tests are, and most of them end there.
+/// The distance field of a part in its body frame, and the two queries of the narrow phase: one point with the
+/// gradient, or a group of points with distances only. Nearly all tests are of the second kind, and most of them need
+/// nothing more.
 #pragma once
 
 #include "solver/sphere/shared_code.hpp"

@@ -1,4 +1,5 @@
-/// Features between the nodes of a draft that stick out, so that no node would detect a contact there.
+/// Finds features between the nodes of a draft that protrude, so that no node would detect a contact there.
+/// contact_samples.cpp then adds nodes.
 #pragma once
 
 #include "solver/sphere/shapes/sample_draft.hpp"

@@ -1,4 +1,4 @@
-/// Points of a part in the cells of a regular grid, for "which of them are near".
+/// Sorts points of a part into the cells of a regular grid, to find the points near a given one.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,4 +1,5 @@
-/// Nodes in cluster order, with the bounding spheres that reject them together.
+/// Sorts nodes into clusters, and computes the bounding sphere of each cluster, with which all of its nodes are
+/// rejected together.
 #pragma once
 
 #include "solver/sphere/shapes/sample_draft.hpp"

@@ -1,4 +1,4 @@
-/// Samples in the making: nodes and edge pieces in model axes, before they are put in cluster order.
+/// A draft of the samples of a part: nodes and pieces of edges in model axes, before they are sorted into clusters.
 #pragma once
 
 #include "solver/sphere/shapes/contact_samples.hpp"

@@ -1,4 +1,4 @@
-/// The shapes of the parts that a solver has met.
+/// Keeps the shapes of the parts that a solver has used.
 #pragma once
 
 #include "bin_scenes/core/profile.hpp"

@@ -1,4 +1,4 @@
-/// The sharp convex edges of a mesh, with the directions in which they can be pressed.
+/// The sharp convex edges of a mesh, with the normal cone of each: the directions in which contacts may press on it.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
