@@ -134,8 +134,8 @@ class HeapCore final : private HeapView {
   Random random_;
   Settling settling_;
   double time_ = 0.0;
-  std::uint64_t earlier_steps_ =
-      0;  ///< steps of earlier worlds since the clock was started, less those of this world before that
+  /// Steps of earlier worlds since the clock was started, less those of this world before that.
+  std::uint64_t earlier_steps_ = 0;
   bool fresh_ = false, walls_raised_ = false;
   bool poured_ = false;  ///< in the last slice
   bool lifts_ = false;   ///< the world has lifted bodies
@@ -145,8 +145,8 @@ class HeapCore final : private HeapView {
   std::vector<ContactForce> kept_forces_;
   Course course_ = Course::ahead;
   double course_begun_ = 0.0;  ///< s
-  std::size_t moving_from_ =
-      0;  ///< part line: the motions of those before it, and of the bin, were in an earlier course
+  /// Part line: the motions of those before it, and of the bin, were in an earlier course.
+  std::size_t moving_from_ = 0;
   std::vector<BodyState> states_;
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;   ///< bodies that have not entered, next one first

@@ -73,15 +73,15 @@ class Plan {
   std::size_t most_targets = 0;
   double most_not_poured = 0.05;  ///< share of the parts of a heap that may find no room; key `not_poured`
   std::size_t shard_size = 1000;  ///< number of images in a shard
-  std::vector<std::pair<std::string, double>>
-      split;  ///< names of splits and their shares of the heaps; empty: all heaps belong to "train"
+  /// Names of splits and their shares of the heaps; empty: all heaps belong to "train".
+  std::vector<std::pair<std::string, double>> split;
   Depletion depletion;
   std::vector<PlanObject> objects;
   Request reference;               ///< the request of the plan, before any value is drawn
   std::vector<std::string> notes;  ///< decisions of the reader that the user should know
   std::string text;                ///< the text of the plan file
-  std::string
-      sha256;  ///< digest of everything that determines a heap: all keys except `scenes`, the request and the models
+  /// Digest of everything that determines a heap: all keys except `scenes`, the request and the models.
+  std::string sha256;
 
   /// Returns the number of scenes of the data set.
   std::size_t scenes() const { return heaps * (depletion.steps + 1); }

@@ -14,8 +14,8 @@ namespace bin_scenes {
 
 /// Where model files may be located. The ROS node sets these rules for requests from its clients.
 struct PathRules {
-  std::vector<std::string>
-      roots;  ///< folders that must contain the files; empty: files may be anywhere, as for the command line
+  /// Folders that must contain the files; empty: files may be anywhere, as for the command line.
+  std::vector<std::string> roots;
   std::string roots_name = "the roots";  ///< name of these folders in error messages, as the user knows them
   /// Returns the folder of a ROS package for package:// paths, or "" if it does not exist. If this function is not set,
   /// packages are found on ROS_PACKAGE_PATH.

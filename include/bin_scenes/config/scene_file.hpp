@@ -23,8 +23,8 @@ struct PartTruth {
 
 /// A sensor in scene.json.
 struct SceneSensor : Sensor {
-  std::optional<std::vector<PartTruth>>
-      truth;  ///< one entry for each part that is in the scene; none if no image was made
+  /// One entry for each part that is in the scene; none if no image was made.
+  std::optional<std::vector<PartTruth>> truth;
 };
 
 /// A model file with the options with which it was read, and its digest.

@@ -47,8 +47,8 @@ class Device {
   const Limits& limits() const;
   void make_current();  ///< throws an environment Error
   bool try_make_current() noexcept;
-  void
-  lose();  ///< marks the device as lost, which is called when its results are gone; its objects cannot be used any more
+  /// Marks the device as lost, which is called when its results are gone; its objects cannot be used any more.
+  void lose();
   bool lost() const;
 
   /// Lists all EGL devices and tries to create a context on each.

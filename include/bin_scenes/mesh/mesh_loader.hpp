@@ -21,10 +21,10 @@ constexpr std::uintmax_t max_model_file_size = std::uintmax_t{1} << 30;
 
 /// How a file is read and repaired.
 struct LoadOptions {
-  std::optional<Unit>
-      unit;            ///< unit of the coordinates; none: that of the file if its format states one, otherwise metres
-  double scale = 1.0;  ///< factor that is applied after the unit
-  double weld = 1e-6;  ///< vertices closer than weld * diagonal become one vertex
+  /// Unit of the coordinates; none: that of the file if its format states one, otherwise metres.
+  std::optional<Unit> unit;
+  double scale = 1.0;      ///< factor that is applied after the unit
+  double weld = 1e-6;      ///< vertices closer than weld * diagonal become one vertex
   double max_hole = 0.02;  ///< holes whose perimeter is below max_hole * diagonal are closed; 1 closes every hole
   std::optional<double> thickness;  ///< m: if given, an open surface becomes a shell of this thickness
   Tessellation tessellation;        ///< STEP, IGES

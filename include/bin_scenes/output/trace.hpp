@@ -17,10 +17,10 @@ namespace bin_scenes {
 /// The scene at one moment of simulated time.
 struct TraceSample {
   double time = 0.0;  ///< s since the scene began
-  std::vector<ScenePart>
-      parts;  ///< all parts with id, pose (bin frame; not finite if the part is not in the bin yet) and velocity
-  std::vector<SceneContact>
-      contacts;  ///< the contacts of the step that ends at this time; only for a trace that shows_contacts()
+  /// All parts with id, pose (bin frame; not finite if the part is not in the bin yet) and velocity.
+  std::vector<ScenePart> parts;
+  /// The contacts of the step that ends at this time; only for a trace that shows_contacts().
+  std::vector<SceneContact> contacts;
 };
 
 /// A trace that is being written. Calls are in the order begin(), add() for ascending times, finish().

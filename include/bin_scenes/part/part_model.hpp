@@ -36,8 +36,8 @@ class PartModel {
   const std::string& path() const;
   const Mesh& mesh() const;
   const LoadReport& load_report() const;
-  const std::string& mesh_key()
-      const;  ///< digest of the mesh, the cache key of everything that depends on the mesh only
+  /// Digest of the mesh, the cache key of everything that depends on the mesh only.
+  const std::string& mesh_key() const;
   const MassProperties& mass() const;  ///< at a density of 1 kg/m3
   double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
   double radius() const;               ///< largest distance of a vertex from the centre of mass (m)

@@ -67,8 +67,8 @@ class Rain {
   Opening opening_;
   double drop_height_;
   std::vector<Obstacle> obstacles_;
-  std::vector<std::pair<double, std::size_t>>
-      order_;  ///< height of the top of each cover (m) and the index of its obstacle, the highest first
+  /// Height of the top of each cover (m) and the index of its obstacle, the highest first.
+  std::vector<std::pair<double, std::size_t>> order_;
   bool sorted_ = true;
 };
 

@@ -30,8 +30,8 @@ struct ScenePart {
               ///< not poured or was removed
   Twist velocity;  ///< of the centre of mass at the end of the simulation, bin frame
   PartState state = PartState::moving;
-  std::map<std::string, double>
-      visible_fraction;  ///< share of the part's silhouette that each sensor sees, by sensor name
+  /// Share of the part's silhouette that each sensor sees, by sensor name.
+  std::map<std::string, double> visible_fraction;
 };
 
 /// A contact of the finished scene, at which one part touches another part or the bin (bin frame, SI).

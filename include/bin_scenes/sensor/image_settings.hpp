@@ -18,8 +18,8 @@ struct ImageLamp {
     dome,      ///< the sky: light from every direction that nothing blocks
     projector  ///< white light from Sensor::projector
   } type = Type::area;
-  std::optional<Pose>
-      pose;  ///< area, ring: centre in the bin frame, with light leaving along z; none: the pose of the camera
+  /// Area, ring: centre in the bin frame, with light leaving along z; none: the pose of the camera.
+  std::optional<Pose> pose;
   /// Only the ratios between lamps matter. For a projector, it is the radiance of a white surface at 1 m.
   double radiance = 1.0;
   Vec3 colour = Vec3::Ones();  ///< factors of the radiance for red, green and blue

@@ -24,8 +24,8 @@ struct Lens {
   /// Returns (column, row) of a point in the optical frame (m), whether inside the image or not. Returns none if z <=
   /// 0, and where the distortion would fold the image back.
   std::optional<Eigen::Vector2d> project(const Vec3& point) const;
-  bool inside(const Eigen::Vector2d& pixel)
-      const;  ///< whether a pixel is within the image, up to the outer edge of the outermost pixels
+  /// Whether a pixel is within the image, up to the outer edge of the outermost pixels.
+  bool inside(const Eigen::Vector2d& pixel) const;
   bool distorts() const;
 
   /// Returns a lens with square pixels, the principal point in the centre, and no distortion. @param fov  horizontal

@@ -27,12 +27,12 @@ struct SensorMetrics {
   std::array<double, 3> distances{};  ///< distance of the nearest, central and farthest plane of the measured volume
   std::vector<PredictedSigma> predicted;
   double ball_radius = 0.0;
-  std::array<double, 7>
-      probing_form{};  ///< range of the residuals from the fitted ball, without the worst 0.3 % of the points
+  /// Range of the residuals from the fitted ball, without the worst 0.3 % of the points.
+  std::array<double, 7> probing_form{};
   std::array<double, 7> probing_size{};  ///< fitted diameter - true diameter
   double sphere_spacing = 0.0;           ///< largest error of the distance between two balls
-  std::array<double, 7>
-      flatness{};  ///< range of the residuals from the fitted plane, without the worst 0.3 % of the points
+  /// Range of the residuals from the fitted plane, without the worst 0.3 % of the points.
+  std::array<double, 7> flatness{};
   double point_precision = 0.0;  ///< standard deviation of a point over repeated images, median over the points
   double temporal_noise = 0.0;  ///< standard deviation along the optical axis over repeated images, on an albedo of 0.8
   /// Standard deviation of the points from planes that are fitted to 15 x 15 pixels: the median over the planes.

@@ -33,8 +33,8 @@ struct WatchAsk {
   bool driven = false;  ///< whether moving fixed bodies or a moving frame may have given energy to the bodies since the
                         ///< last observation (EnergyAudit::observe())
   bool states = false;  ///< whether the states of the bodies are read as well
-  std::array<std::uint32_t, 4>
-      since{};               ///< for each of these observations, the bodies that moved in it or later are counted
+  /// For each of these observations, the bodies that moved in it or later are counted.
+  std::array<std::uint32_t, 4> since{};
   std::uint32_t rested = 0;  ///< bodies that moved after this observation are counted as well
 };
 

@@ -75,9 +75,9 @@ struct Settings {
                             ///< spike between others is thrown up by a hundredth of the height it fell
   float recycle = 1e-3f;    ///< d: contacts of a pair are reused until it has moved this far
   float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where less precision is needed
-  float probe_slip =
-      2.5e-3f;  ///< s without friction at the start of a probe, while normal forces are found;
-                ///< longer = the heap is shaken, shorter = wedged parts hold that would slip in another engine
+  /// S without friction at the start of a probe, while normal forces are found; longer = the heap is shaken, shorter =
+  /// wedged parts hold that would slip in another engine.
+  float probe_slip = 2.5e-3f;
   float restitution_speed = 0.05f;  ///< m/s: slower impacts do not bounce
   float rest_window = 0.1f;         ///< s: a body sleeps after staying within rest_move for this time
   float rest_move = 1e-4f;          ///< d: largest move of a body that may sleep

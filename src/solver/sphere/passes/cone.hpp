@@ -15,8 +15,8 @@ struct Cone {
   Vec3f axis = Vec3f::Zero();  ///< of a face
   float spread = 0;            ///< rad around the axis
   int bounds = 0;              ///< of an edge or corner; neither bounds nor axis: all directions
-  std::array<Vec3f, max_bounds> bound =
-      filled();  ///< the cone is { n : n . bound <= 0 for every bound }; unit vectors along the surface
+  /// The cone is { n : n . bound <= 0 for every bound }; unit vectors along the surface.
+  std::array<Vec3f, max_bounds> bound = filled();
 
  private:
   static std::array<Vec3f, max_bounds> filled() {
