@@ -6,7 +6,7 @@
 #include "shared/sphere/constants.h"
 #include "shared/types.h"
 
-// Binding numbers; the same buffer has the same number in every pass.
+// Binding numbers. The same buffer has the same number in every pass.
 #define BIND_SETTINGS 0
 #define BIND_RUNNING 1
 #define BIND_WORLDS 2
@@ -40,141 +40,154 @@
 #define BIND_AUDITS 37
 #define BIND_SEEN 38
 
-#define SPHERE_JOB_GROUP 64         // of a group that decides about pairs, one each
+#define SPHERE_JOB_GROUP 64         // invocations of a group that decides about pairs, one pair each
 #ifndef SPHERE_PAIR_GROUP
-#define SPHERE_PAIR_GROUP 64        // of a group that takes pairs: Capacity::pair_group
+#define SPHERE_PAIR_GROUP 64        // invocations of a group that processes pairs (Capacity::pair_group)
 #endif
 #ifndef SPHERE_WORLD_GROUP
-#define SPHERE_WORLD_GROUP 64       // of a group that takes a world: Capacity::world_group
+#define SPHERE_WORLD_GROUP 64       // invocations of a group that processes a world (Capacity::world_group)
 #endif
 #define SPHERE_PREPARE_GROUP 64     // invocations of a group that prepares rows
-#define SPHERE_PREPARE_GROUPS 8u    // of these, of a world
-#define SPHERE_GROUP_JOBS 16        // pairs after which a group that takes them ends: llvmpipe lets no invocation take more
-                                    // than 65,535 turns in all its loops together, and then silently ends each after one
-#define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
-#define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
+#define SPHERE_PREPARE_GROUPS 8u    // number of such groups per world
+#define SPHERE_GROUP_JOBS 16        // pairs after which a group ends: llvmpipe lets no invocation make more than 65,535
+                                    // iterations in all its loops together, and then silently ends each loop after one
+#define SPHERE_MAX_BODIES 384       // bodies of a world that one group can solve: their velocities fill 24 of 32 KiB of
+                                    // shared memory
+#define SPHERE_RIGID 2u             // index of the softness of rigid contacts, which a probe uses
 #define SPHERE_SLEEP_BY_ISLAND 0u  // Phase::Sleep
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
-#define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
-#define SPHERE_CHAINS 14            // of a job's candidates, each walked by one invocation
+#define SPHERE_MAX_CLUSTERS 1024    // largest number of clusters of a part at one resolution
+#define SPHERE_CHAINS 14            // number of chains of a job's candidates; one invocation walks each chain
 
-#define SPHERE_NO_COLOR 0xffffffffu  // of a pair: nothing of it is solved
+#define SPHERE_NO_COLOR 0xffffffffu  // color of a pair without contacts to solve
 
-#define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // of a world: the ground, behind all bodies
+#define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // index of the ground of a world, after all bodies
 
 // SphereOrdered.kind.
 #define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce
-#define SPHERE_BOUNCES 2u    // and has pressed: it bounces at the end of the step
-#define SPHERE_REFRESHED 4u  // strikes, and no ball is in it
-#define SPHERE_RESTITUTES 8u // a restitution above 0
+#define SPHERE_BOUNCES 2u    // in addition, the contact has pressed, so that it bounces at the end of the step
+#define SPHERE_REFRESHED 4u  // a contact strikes, and neither body is a ball: the contacts are found again in the next
+                             // step
+#define SPHERE_RESTITUTES 8u // the restitution is above 0
 
-// A row, by vec4: normal, effective mass along it (kg); lever of a, effective mass along tangents; lever of b, gap when
-// contacts were found (m). The impulses of a contact, by vec2 and at the same place of their own buffer, so that sweeps
-// only read rows: normal impulse, gap (m); friction along x, y; friction along z, and the normal impulse that the sub-step
-// began with, negative (-0 for 0) if the contact has pressed in this step.
+// A row is the data of one contact in three vec4: normal and effective mass along it (kg); lever arm of a and effective
+// mass along the tangents; lever arm of b and the gap (m) when the contact was found. The impulses of a contact are
+// two-component vectors at the same position of a separate buffer, so that sweeps only read rows: normal impulse and
+// gap (m); friction along x and y; friction along z and the normal impulse with which the sub-step started. The last
+// value is negative (-0 for 0) if the contact has pressed in this step.
 #define SPHERE_ROW_PARTS 3u
-#define SPHERE_ROW_BLOCK 32u  // manifolds whose rows lie side by side, part by part: their invocations' reads are one
+#define SPHERE_ROW_BLOCK 32u  // manifolds whose rows are interleaved part by part, so that the reads of their
+                              // invocations are contiguous
 
 // Sweeps of the solve over all manifolds.
 #define SWEEP_PUSH 0u
 #define SWEEP_RELAX 1u
-#define SWEEP_FIRST_PUSH 2u  // from here on there is more to do than to push contacts
+#define SWEEP_FIRST_PUSH 2u  // from here on, a sweep does more than pushing contacts apart
 #define SWEEP_FIRST_RELAX 3u
-#define SWEEP_WARM_START 4u  // from here on nothing is pushed
+#define SWEEP_WARM_START 4u  // from here on, a sweep does not push
 #define SWEEP_BOUNCE 5u
 
-// Buffers of a part's samples, which no struct describes (read by shaders/sphere/samples.h):
-// An edge is four words: its two nodes, its normal cone, its length (m, bits of a float; negative: no two faces meet
-// there). Behind the edges of a part lie the lists of those near a point (EdgeGrid).
-// A normal cone is one word: place of its vectors behind the nodes << 3 | how many bounds they are; 0 = all directions,
-// SPHERE_AXIS = one axis.
+// Buffers of the samples of a part that no struct describes; shaders/sphere/samples.h reads them.
+// An edge is four words: its two nodes, its normal cone, and its length (m, as the bits of a float; negative if no two
+// faces meet at the edge). The edges of a part are followed by the lists of the edges near a point (EdgeGrid).
+// A normal cone is one word: (index of its vectors after the nodes << 3) | number of its bounds. 0 bounds means all
+// directions; SPHERE_AXIS means one axis.
 
 // SphereState.flags.x
 #define SPHERE_PRESENT 1u
 #define SPHERE_ASLEEP 2u
-#define SPHERE_OUTSIDE 4u  // has left the bin; the host takes it out
+#define SPHERE_OUTSIDE 4u  // the body has left the bin, and the host removes it
 
-// SphereProgress.overflow: the world waits, as it was before the step, until the host has made room.
+// SphereProgress.overflow: the world stays in the state before the step until the host has enlarged the buffer.
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
 #define SPHERE_ROW_OVERFLOW 4u
 #define SPHERE_SAMPLE_OVERFLOW 8u
 
-// SphereAsk.flags: WatchAsk in solver/world_watch.hpp; COUNTED: the host has taken the counters of SphereProgress.
+// SphereAsk.flags, as in WatchAsk (solver/world_watch.hpp). COUNTED: the host has read the counters of SphereProgress.
 #define SPHERE_REST_ANEW 1u
 #define SPHERE_ENERGY_ANEW 2u
 #define SPHERE_DRIVEN 4u
 #define SPHERE_COUNTED 8u
 
-#define SPHERE_BLOCKED 0x80000000u  // SphereSeen.left: the world waits for room
+#define SPHERE_BLOCKED 0x80000000u  // SphereSeen.left: the world waits until a buffer is enlarged
 
 GPU_STRUCTS_BEGIN
 
 struct SphereSettingsBlock {
   float time_step;         // s, before it is cut
   uint sub_steps;
-  float push_speed;        // d per second
-  float margin, recycle, rest_move;  // d
+  float push_speed;        // diagonals of the part per second
+  float margin, recycle, rest_move;  // in diagonals
   float restitution_speed; // m/s
   float rest_window;       // s
-  uint samples, candidates;  // room in the lists of those
-  uint contact_groups;     // that take pairs at once
-  float coarse_recycle;    // d: `recycle` on coarse samples
-  uint sweeps;             // over all contacts before bodies move, and after; SPHERE_RIGID: 1 after
-  uint cold_sweeps;        // the same in the first steps of a world
-  float patch_radius;      // d: of what presses at a point or along a line
-  uint cut_steps;          // 1: for fast parts
-  float probe_slip;        // s of a step that begins without forces, without friction
-  float touch_move;        // d: rest_move where bodies sleep by touch
-  float tolerance;         // d per second: a contact whose speed a sweep changes by more is not solved yet
-  vec4 softness[3];        // by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
+  uint samples, candidates;  // capacity of these lists
+  uint contact_groups;     // number of groups that process pairs at the same time
+  float coarse_recycle;    // in diagonals: `recycle` for coarse samples
+  uint sweeps;             // sweeps over all contacts before bodies move, and as many after; with rigid contacts, 1
+                           // after
+  uint cold_sweeps;        // sweeps in the first steps of a world
+  float patch_radius;      // in diagonals: radius of contact at a point or along a line
+  uint cut_steps;          // 1: steps are shortened for fast parts
+  float probe_slip;        // s without friction at the start of a step that begins without forces
+  float touch_move;        // in diagonals: rest_move if bodies sleep by touch
+  float tolerance;         // diagonals per second: a contact is solved when a sweep changes its speed by no more than
+                           // this
+  vec4 softness[3];        // by Stiffness: rate (as a share of the sub-step rate), damping ratio, slop (diagonals),
+                           // sub-steps in place of one
 };
 
 struct SphereWorld {
-  uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word; behind the bits: sphere/listed.h
-  uvec4 pairs;    // first, capacity; planes: first, count
-  uvec4 rows;     // first, capacity; most sweeps while an impact is not shared: z: in a step with an impact, w: else
+  uvec4 bodies;   // first body, number of bodies, words in a row of the neighbour bits, first word; the bits are
+                  // followed by sphere/listed.h
+  uvec4 pairs;    // first pair and capacity; first plane and number of planes
+  uvec4 rows;     // first row and capacity; largest number of sweeps while an impact propagates: z in a step with an
+                  // impact, w otherwise
   vec4 gravity;   // m/s2; w: size of the smallest part
-  vec4 ground;    // friction, restitution, height where walls end; w: thickness of the thinnest part
+  vec4 ground;    // friction, restitution, height of the walls (m); w: thickness of the thinnest part (m)
 };
 
-// What the steps of a world leave behind; the host reads it every few steps.
+// The state of a world between steps. The host reads it every few steps.
 struct SphereProgress {
-  uint steps_left, steps, overflow, need;    // need: places in the list of pairs or of samples that was too short
-  uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
-  uint fine, stiffness, ordered, rows;       // samples in use, softness in use, manifolds to solve, rows of the step
+  uint steps_left, steps, overflow, need;    // need: required capacity of the list that overflowed
+  uint page, pairs, free_slots, refresh;     // pair list in use and its length; refresh: contacts of the last step are
+                                             // invalid
+  uint fine, stiffness, ordered, rows;       // samples in use, softness in use, number of manifolds to solve, number of
+                                             // rows of the step
   float time_step;                           // s, of this step
-  uint cuts_left;                            // of a whole step
-  uint cold_steps;                           // yet to come, with more sweeps
-  float friction_share;                                // share of friction that holds
+  uint cuts_left;                            // shortened steps that are left of a whole step
+  uint cold_steps;                           // number of remaining steps with more sweeps (see cold_sweeps)
+  float friction_share;                                // factor of all coefficients of friction
   uint forgets;                              // the next step begins without the forces of the last one
-  uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
-  uint listed;                               // entries of the list of pairs that may come near; 0: to be made
+  uint refinement, effort;                   // sub-steps in place of one; factor of the number of sweeps
+  uint listed;                               // entries of the list of pairs that may come near; 0: the list must be
+                                             // made
   uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
   // Counters, since the host last observed it.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
-  uint need_candidates;  // need of the list of candidates
-  uint base_colors, base_waste;  // when all were colored anew: colors, and how long invocations wait for one another
-  uint lists_made, colorings;        // counters: lists of pairs that may come near, colorings of all manifolds
-  // Read back, states lie behind it: vectors begin at multiples of 16 bytes.
+  uint need_candidates;  // required capacity of the list of candidates
+  uint base_colors, base_waste;  // when all manifolds were last colored: number of colors, and how long invocations
+                                 // wait for each other
+  uint lists_made, colorings;        // counters: lists of pairs that may come near, and colorings of all manifolds
+  // When it is read back, the states follow it, so that its size is a multiple of 16 bytes.
 };
 
 // The deepest contact of a world since the host last asked for it: Solver::take_worst_contact().
 struct SphereWorst {
-  uint a, b;        // bodies, counted in the world; b may be SPHERE_GROUND
+  uint a, b;        // bodies of the world; b may be SPHERE_GROUND
   float depth;      // m
-  float relative;   // depth / diagonal of the smaller part; 0: there was none
-  float ago;        // s since the beginning of its step
+  float relative;   // depth / diagonal of the smaller part; 0: no contact
+  float ago;        // s since the start of the step with that contact
   uint unused0, unused1, unused2;
 };
 
-// What a world is to do and to be observed for: WatchAsk and WatchRules in solver/world_watch.hpp.
+// The tasks of a world: steps to simulate, and what to observe (WatchAsk and WatchRules in solver/world_watch.hpp).
 struct SphereAsk {
-  uint steps, flags, observation;  // observation: 0 = none, or done
+  uint steps, flags, observation;  // observation: its number; 0: none, or done
   float seconds;
   uvec4 since;
   vec4 lower;       // m; w: rest_move, diagonals
@@ -182,30 +195,34 @@ struct SphereAsk {
   uint rested, unused0, unused1, unused2;
 };
 
-// What the host reads after each stretch of steps: WatchSeen, and what is left to do.
+// The results that the host reads after each begin(): WatchSeen, and the remaining steps.
 struct SphereSeen {
-  uint left;        // steps; and SPHERE_BLOCKED
+  uint left;        // remaining steps, and SPHERE_BLOCKED
   uint observation, outside, fast, awake, unrested;
   uint moved01, moved23;  // two counts each, the first one in the lower 16 bits
 };
 
-// What the watch keeps of a body. Places (m) are positions with what these are too coarse for.
+// Data that the observer stores for a body. A position (m) has a second vector with the part that single precision
+// loses.
 struct SphereWatched {
-  vec4 still, still_rest, still_orientation;  // pose from which rest is judged: RestWatch
-  vec4 before, before_rest;  // place at the last observation; w: kinetic energy (J), speed (m/s)
-  vec4 least, least_rest;    // place when the energy of all was least; w: kinetic energy, the most since then (J)
-  vec4 audited;              // speed of its fastest point at the last observation (m/s); 1 = its energies are known
+  vec4 still, still_rest, still_orientation;  // pose to which rest is compared (RestWatch)
+  vec4 before, before_rest;  // position at the last observation; w: kinetic energy (J), and speed (m/s)
+  vec4 least, least_rest;    // position when the energy of all bodies was lowest; w: kinetic energy then, and the
+                             // largest since then (J)
+  vec4 audited;              // speed of the body's fastest point at the last observation (m/s); second value: 1 if its
+                             // energies are known
 };
 
-// The worst energies since they began anew: EnergyReport and WorldEnergy. Observations by number, 0 = none.
+// The largest gains of energy since their observation started (EnergyReport and WorldEnergy). Observations are numbers,
+// and 0 means none.
 struct SphereAudit {
-  float gain;       // m g d
+  float gain;       // in units of m g d (mass, gravity, diagonal)
   uint gainer, gain_observation;
-  float ratio;      // of speeds
+  float ratio;      // ratio of speeds
   uint thrown, beside, ratio_observation;
-  float world_gain;  // m g d of those that moved
+  float world_gain;  // in units of m g d summed over the bodies that moved
   uint world_observation;
-  uint begins;      // 1: the energy of all begins anew with the next observation
+  uint begins;      // 1: the observation of the total energy starts again with the next observation
   uint unused0, unused1;
 };
 
@@ -215,130 +232,134 @@ struct SphereBody {
 };
 
 struct SphereState {
-  vec4 position;     // centre of mass
-  vec4 orientation;  // xyzw, body -> world
+  vec4 position;     // centre of mass (m)
+  vec4 orientation;  // x, y, z, w; from body to world axes
   vec4 velocity;     // m/s
   vec4 spin;         // rad/s
-  vec4 still_position;     // pose from which rest is judged; w: s spent near it
+  vec4 still_position;     // pose to which rest is compared; w: s spent near it
   vec4 still_orientation;
-  vec4 position_rest, velocity_rest;  // what position and velocity are too coarse for: add_exactly
-  uvec4 flags;       // bits; label of the island; 1: it was put in anew; observation in which it moved last (world_watch.hpp)
+  vec4 position_rest, velocity_rest;  // the parts of position and velocity that single precision loses: add_exactly
+  uvec4 flags;       // bits; label of the island; 1: it was inserted again; last observation in which it moved
+                     // (world_watch.hpp)
 };
 
-struct SphereTensor {  // when contacts were found
+struct SphereTensor {  // values at the time when contacts were found
   vec4 diagonal, mixed;  // inverse inertia, world axes
   vec4 orientation;      // xyzw, body -> world
   vec4 velocity, spin;   // m/s, rad/s
 };
 
 struct SpherePlane {
-  vec4 plane;        // normal . p >= w outside
-  uvec4 wall;        // x: 1 = ends at the world's wall top
+  vec4 plane;        // normal . p >= w outside the solid
+  uvec4 wall;        // x: 1 if the plane ends at the height of the walls
 };
 
 struct SphereSamples {
-  uvec4 nodes;       // first, count; edges: first, count. Behind the nodes lie the ends of creases and the vectors of
-                     // normal cones
-  uvec4 clusters;    // first, count; z: edges from there on are creases
-  uvec4 blocks;      // of edges, behind them: first of the table and of the lists (four words each), blocks along x, and
-                     // of a layer along x and y
-  vec4 size;         // radius of the nodes, longest edge piece, mean distance between neighbours on faces, and by how
-                     // much a curved face may bulge between its nodes (m)
+  uvec4 nodes;       // first node and count; first edge and count. The nodes are followed by the ends of creases and
+                     // the vectors of normal cones
+  uvec4 clusters;    // first cluster and count; z: edges from this index on are creases
+  uvec4 blocks;      // lists of the edges near a point: first word of the table and of the lists (four words each),
+                     // blocks along x, and blocks of a layer along x and y
+  vec4 size;         // radius of the nodes, longest piece of an edge, mean distance between neighbours on faces, and
+                     // largest height by which a curved face may bulge between its nodes (m)
 };
 
 struct SphereShape {
   SphereSamples coarse, fine;
-  vec4 box_center;   // body axes; w: largest distance of a node from the centre of mass
+  vec4 box_center;   // body axes; w: largest distance of a node from the centre of mass (m)
   vec4 box_half;     // w: size (m)
   vec4 inertia, inertia_mixed;                  // per mass, body axes: xx yy zz, xy xz yz (m2)
   vec4 inverse_inertia, inverse_inertia_mixed;  // 1/m2
-  vec4 origin;       // of the field's grid; w: cell
-  vec4 field;        // 1 / cell, padding, radius if the part is a ball
-  uvec4 grid;        // values along x, y, z; first value
+  vec4 origin;       // origin of the field's grid; w: edge length of a cell (m)
+  vec4 field;        // 1 / cell, padding, and the radius if the part is a ball
+  uvec4 grid;        // numbers of values along x, y, z; index of the first value
 };
 
 struct SphereNode {
-  vec3 place;        // body axes; or a vector of a normal cone
-  uint cone;         // of a node; of an axis the bits of its spread (rad)
+  vec3 place;        // position in body axes, or a vector of a normal cone
+  uint cone;         // normal cone of a node; for an axis, the bits of its spread (rad)
 };
 
 struct SphereCluster {
-  vec4 ball;         // of the nodes and of the edges that start there
-  uvec4 edges;       // first, end (of the part)
+  vec4 ball;         // bounding sphere of the nodes and of the edges that start at them
+  uvec4 edges;       // first edge, and end; counted within the part
 };
 
-struct SphereBox {     // that a body's upright box does not leave while the list of pairs that may come near holds
+struct SphereBox {     // the upright box that a body does not leave while the list of pairs that may come near is valid
   vec3 center;
-  uint first;          // entry of the list whose first body it is
-  vec3 half_size;      // negative: it was absent
+  uint first;          // first entry of the list with this body as its first one
+  vec3 half_size;      // negative if the body was absent
   uint end;
 };
 
 struct SpherePair {
-  uint a, b;         // bodies (of all worlds), a < b; b may be SPHERE_GROUND
-  uint slot;         // of the manifold, in the world
+  uint a, b;         // indices among the bodies of all worlds, a < b; b may be SPHERE_GROUND
+  uint slot;         // slot of the manifold within the world
   uint color;
 };
 
 struct SphereManifold {
-  uvec4 state;       // contacts, those that press, found, visits of contacts that a sweep is expected to need
-  vec3 found_position;     // of b in the frame of a when contacts were found
+  uvec4 state;       // number of contacts, number of pressing contacts, whether they were found, and the expected
+                     // number of contact visits of a sweep
+  vec3 found_position;     // position of b in the frame of a when contacts were found
   uint unused;
   vec4 found_orientation;
 };
 
-// Contact k of a manifold lies at k behind SPHERE_MAX_CONTACTS times the place of the manifold.
+// Contact k of a manifold is at index SPHERE_MAX_CONTACTS * (index of the manifold) + k.
 struct SphereContact {
   vec3 anchor_a;     // on the surface of a, body axes
   uint feature;
   vec3 anchor_b;
-  float approach;    // speed at which the two meet if they do in this step (m/s), negative: closing; written by prepare_rows
-  vec4 normal;       // from a to b, in the frame of the body whose field gave it
-  vec4 force;        // on b (N): normal, friction (world axes)
+  float approach;    // m/s, negative: the speed with which the surfaces meet if they do so in this step; prepare_rows
+                     // writes it
+  vec4 normal;       // from a to b, in the frame of the body whose field determined it
+  vec4 force;        // N, on b: normal force, and friction in world axes
 };
 
-// A manifold that is solved in this step, in order of color; of a color those that need most visits of contacts first.
-// Manifold l of a block of `stride` (SPHERE_ROW_BLOCK, less in the last block of a color) has part p of its row k at
-// row + (k SPHERE_ROW_PARTS + p) stride, row = l + the block's first. Sweeps solve the contacts that may press
-// (shaders/sphere/near.h).
+// A manifold that is solved in this step. Manifolds are in order of color; within a color, those that need most contact
+// visits come first. Part p of row k of manifold l in a block of `stride` manifolds (SPHERE_ROW_BLOCK, or fewer in the
+// last block of a color) is at row + (k SPHERE_ROW_PARTS + p) stride, where row = l + the first row of the block.
+// Sweeps solve the contacts that may press (shaders/sphere/near.h).
 struct SphereOrdered {
-  uint bodies;       // a | b << 16, counted in the world; b may be SPHERE_GROUND_BODY
-  uint row;          // in the world, counted in vec4
+  uint bodies;       // a | b << 16, counted within the world; b may be SPHERE_GROUND_BODY
+  uint row;          // index within the world, in vec4
   uint kind;         // flags | contacts << 8 | stride << 12 | a bit for each contact that may press << 24
-  float slack;       // gap (m) that all other contacts have at least
-  float arm;         // longest lever of a contact (m)
-  float friction;    // where it holds
-  float yield;       // most by which an impulse at a contact changes the speed at another one (1/kg)
+  float slack;       // m, lower bound of the gaps of all other contacts
+  float arm;         // m, longest lever arm of a contact
+  float friction;    // coefficient of friction, including the share of the phase
+  float yield;       // 1/kg, largest change of the speed at one contact by an impulse at another one
   uint slot;         // of the manifold, in the world
 };
 
-// A pair whose contacts are to be found. Its candidates are in no order, and none depends on one.
+// A pair whose contacts are to be found. Its candidates have no order, and no result depends on one.
 struct SphereJob {
-  uint pair;         // place in the list of pairs
-  uint incomplete;   // 1: for some of its samples or candidates there was no room
-  uint chains[SPHERE_CHAINS];  // last candidate of each; 0 = none, and empty between steps
+  uint pair;         // index in the list of pairs
+  uint incomplete;   // 1: there was no room for some of its samples or candidates
+  uint chains[SPHERE_CHAINS];  // last candidate of each chain; 0: none, as in all chains between steps
 };
 
-// A node or edge of one body of a pair that is near the other.
+// A node or an edge of one body of a pair that is near the other body.
 struct SphereSample {
   uint job;
-  uint feature;      // SPHERE_SIDE_B: of b
+  uint feature;      // SPHERE_SIDE_B: it belongs to b
 };
 
 struct SphereCandidate {
-  vec3 on_a;         // frame of a
+  vec3 on_a;         // m, point on the surface of a, in the frame of a
   float separation;  // m
-  vec3 normal;       // a -> b, frame of a
-  float apart;       // m: from the nearest chosen candidate; negative: chosen, or a twin of one
-  uint feature, known;  // known: 1 = was a contact in the last step
-  uint next;         // of its chain; 0 = none: nothing lies there
+  vec3 normal;       // unit normal from a to b, in the frame of a
+  float apart;       // m, distance from the nearest selected candidate; negative: selected, or a duplicate of a
+                     // selected one
+  uint feature, known;  // known: 1 if it was a contact in the last step
+  uint next;         // next candidate of its chain; 0: none
   uint unused;
 };
 
-struct SphereStatus {  // stands before the list of jobs
-  uint jobs, samples, candidates;  // how many, of the last two perhaps more than there is room for
+struct SphereStatus {  // stored before the list of jobs
+  uint jobs, samples, candidates;  // counts; those of samples and candidates may exceed the capacity
   uint next_job, next_choice, unused0, unused1, unused2;
-  uvec4 groups, sample_groups;  // arguments of dispatches over jobs and over samples
+  uvec4 groups, sample_groups;  // arguments of indirect dispatches over jobs and over samples
 };
 
 GPU_STRUCTS_END

@@ -5,10 +5,11 @@
 // parts lie with their edges flush, this gradient would push one part sideways off the other. Such a direction is
 // rotated into the cone (touch.h states when).
 
-const float LEAST_LEFT = 0.1f;  // of a unit direction: what leans over more than 84 degrees does not press
-const int CONE_SWEEPS = 8;      // of cyclic projection; two suffice where the bounds are perpendicular
+const float LEAST_LEFT = 0.1f;  // smallest cosine of a rotation into the cone: a direction that is tilted by more than
+                                // 84 degrees does not press
+const int CONE_SWEEPS = 8;      // rounds of cyclic projection; two suffice if the bounds are perpendicular
 
-// Turns a unit direction into the cone; false if less than `least` of it is left there (cosine of the turn).
+// Rotates a unit direction into the cone. Returns false if the cosine of the rotation would be below `least`.
 INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {
   uint bounds = bounds_of(cone);
   if (bounds == 0u) return true;
@@ -42,7 +43,7 @@ INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {
   return true;
 }
 
-// Unit direction along the axis of the cone; 0 of a cone of all directions.
+// Returns the unit direction of the axis of the cone; 0 for a cone of all directions.
 INLINE vec3 middle_of(IN(Cone) cone) {
   uint bounds = bounds_of(cone);
   if (bounds == SPHERE_AXIS) return axis_of(cone);

@@ -5,14 +5,15 @@
 #ifndef SHARED_SPHERE_CONTACT_H
 #define SHARED_SPHERE_CONTACT_H
 
-// How compliant contacts are in a sweep.
+// The compliance of contacts in one sweep.
 struct Give {
   float sub_step;                         // s
-  float rate, mass_share, impulse_share;  // of an implicit spring over a sub-step
-  float slop, push_speed;                 // m that overlap may last; m/s at most that let it out
+  float rate, mass_share, impulse_share;  // coefficients of an implicit spring over one sub-step
+  float slop, push_speed;                 // m of overlap that is left; m/s, largest speed with which overlap is removed
 };
 
-// The sweeps before bodies move push overlap out softly. rate: of the spring, / that of sub-steps.
+// The compliance in the sweeps before bodies move, which remove overlap like a spring. rate: frequency of the spring /
+// frequency of sub-steps.
 INLINE Give softly(float sub_step, float rate, float damping_ratio, float slop, float push_speed) {
   float omega = 6.2831853f * rate / sub_step, a1 = 2.0f * damping_ratio + sub_step * omega;
   float a2 = sub_step * omega * a1, a3 = 1.0f / (1.0f + a2);
@@ -26,7 +27,8 @@ INLINE Give softly(float sub_step, float rate, float damping_ratio, float slop, 
   return give;
 }
 
-// Those after take back the velocity which that has left (relaxation).
+// The compliance in the sweeps after bodies have moved, which remove the velocity that pushing apart has caused
+// (relaxation).
 INLINE Give firmly(float sub_step) {
   Give give;
   give.sub_step = sub_step;
@@ -35,21 +37,22 @@ INLINE Give firmly(float sub_step) {
   return give;
 }
 
-// Mass that an impulse meets: moments are arm x direction, turns the spin that they give.
+// Effective mass of a contact along a direction. moment: lever arm x direction; turn: the change of angular velocity by
+// that moment.
 INLINE Real effective_mass(Real inverse_masses, IN(Real3) moment_a, IN(Real3) turn_a, IN(Real3) moment_b,
                            IN(Real3) turn_b) {
   Real k = inverse_masses + dot(moment_a, turn_a) + dot(moment_b, turn_b);
   return select(k > 0.0f, 1.0f / k, all_lanes(0.0f));
 }
 
-// Speed along the normal when the gap of a contact has closed, of what closes at `speed` (below 0) when the step
-// begins: gravity works on what moves, and an impact returns neither more nor less than what has come down.
+// Returns the normal speed at which a contact closes its gap, if it closes with `speed` (below 0) at the start of the
+// step. Gravity accelerates the bodies until then, so that a rebound returns exactly the energy of the fall.
 INLINE Real speed_at_impact(Real speed, Real gap, Real acceleration) {
   Real square = speed * speed - 2.0f * acceleration * max(gap, all_lanes(0.0f));
   return select(speed < 0.0f, -sqrt(max(square, all_lanes(0.0f))), speed);
 }
 
-// A contact that is apart may close the gap, no more.
+// Returns the new normal impulse. A contact with a gap may close it but does not pull.
 INLINE Real normal_impulse(Real before, Real speed, Real gap, Real mass, IN(Give) give) {
   Mask apart = gap > 0.0f;
   Real push = max(give.rate * min(gap + give.slop, all_lanes(0.0f)), all_lanes(-give.push_speed));
@@ -60,12 +63,13 @@ INLINE Real normal_impulse(Real before, Real speed, Real gap, Real mass, IN(Give
   return max(before + change, all_lanes(0.0f));
 }
 
-// Whether a sweep that has changed an impulse so was not the last that it takes. tolerance: m/s.
+// Whether a contact whose impulse a sweep changed by `change` needs a further sweep. tolerance: m/s.
 INLINE Mask is_unconverged(Real change, Real mass, float tolerance) {
   return max(change, -change) > tolerance * mass;
 }
 
-// Coulomb's cone: both directions at once. most: friction times the normal impulse.
+// Limits friction to Coulomb's cone, in both tangential directions together. most: coefficient of friction times the
+// normal impulse.
 INLINE void put_into_cone(Real most, INOUT(Real) f1, INOUT(Real) f2) {
   Real size = sqrt(f1 * f1 + f2 * f2);
   Real share = select(size > most, most / size, all_lanes(1.0f));
@@ -73,40 +77,44 @@ INLINE void put_into_cone(Real most, INOUT(Real) f1, INOUT(Real) f2) {
   f2 *= share;
 }
 
-// Whether a contact presses and has all the friction that its force allows.
+// Whether a contact presses, and its friction is at the limit that the normal force allows.
 INLINE Mask slips(Real most, Real f1, Real f2) {
   return (most > 0.0f) AND(f1 * f1 + f2 * f2 > 0.999f * most * most);
 }
 
-// An impact is distinguished from a force: a force may grow by half in a sub-step, and by what stops impact_speed().
-// Beyond, the impulse was that of an impact: it is over, and the next sub-step does not begin with it. A few sweeps do
-// not take it back from a heap, which would be thrown up.
-const float FORCE_GROWTH = 1.5f;  // more = heaps rebound, less = loads of a deep heap are found later
+// The rule that distinguishes an impact from a lasting force. In one sub-step, a force may grow by half, and in
+// addition by the impulse that stops impact_speed(). An impulse beyond that belongs to an impact, which is over, so
+// that the next sub-step does not start with it. Otherwise, a few sweeps could not remove it from a heap, which would
+// be thrown up.
+const float FORCE_GROWTH = 1.5f;  // with a larger value, heaps rebound; with a smaller one, the loads of a deep heap
+                                  // are found later
 
-// Speed (m/s) that a force may take from its bodies in the first sub-step of its life. `weight`: m/s2.
+// Returns the speed (m/s) that a new contact may stop in its first sub-step without counting as an impact. `weight`:
+// acceleration (m/s2).
 INLINE float impact_speed(float sub_step, float weight, float restitution_speed) {
   float falls = 4.0f * sub_step * weight;
   return falls > 0.0f ? min(falls, restitution_speed) : restitution_speed;
 }
 
-// Share of an impulse that the next sub-step begins with, of one that began at `lasting`.
+// Returns the share of an impulse with which the next sub-step starts, for an impulse that was `lasting` at its start.
 INLINE Real lasting_share(Real impulse, Real lasting, Real mass, float impact_speed) {
   Real most = FORCE_GROWTH * lasting + impact_speed * mass;
   return select(impulse > most, most / impulse, all_lanes(1.0f));
 }
 
-// Whether a contact was hit fast enough to bounce: pressed, or closed by an impact that its neighbours took.
+// Whether a contact was hit fast enough to bounce. It either pressed, or was closed by an impact that its neighbours
+// took.
 INLINE Mask was_hit(Real approach, Mask pressed, Real gap, float sub_step, float restitution_speed) {
   return (approach <= -restitution_speed) AND(pressed OR(gap < -approach * sub_step));
 }
 
-// Newton's restitution: towards a separating speed of e times that of the approach.
+// Newton's restitution: returns the impulse after which the separating speed is e times the approach speed.
 INLINE Real bounced_impulse(Real before, Real speed, Real mass, Real restitution, Real approach) {
   return max(before - mass * (speed + restitution * approach), all_lanes(0.0f));
 }
 
-// Mean speed of a sub-step / speed at its end, of a body that friction brakes all the while: 1 of what is hit, or as
-// slow as it is braked in a sub-step.
+// Returns mean speed in a sub-step / speed at its end, for a body that friction brakes steadily. It is 1 for a body
+// that is hit, or that is so slow that friction stops it within a sub-step.
 INLINE float mean_share(float before, float after) {
   return after > 0.5f * before && after < 2.0f * before ? 0.5f * (before / after + 1.0f) : 1.0f;
 }

@@ -5,18 +5,18 @@
 //
 // The includer includes edge.h before.
 
-const float CREASE_REACH = 2.0f;  // cells: what bends the grid's distances lies as near
-const float CREASE_DEPTH = 0.5f;  // cells: what is deeper in a wall may be on the other side of it
+const float CREASE_REACH = 2.0f;  // cells: a crease distorts the distances of the grid up to this distance
+const float CREASE_DEPTH = 0.5f;  // cells: a point deeper in a wall may be on the other side of the wall
 
-// A wall of a crease, or a face of a sharp edge beside it.
+// A wall of a crease, or a face of a sharp edge beside it. `away`: unit normal out of the part.
 struct Wall {
   vec3 away;
-  float distance;  // m, negative behind it
-  bool creased;    // a crease is its border
-  bool faced;      // the point does not lie beyond a sharp edge of it
+  float distance;  // m, from the wall to the point; negative behind the wall
+  bool creased;    // whether the wall ends at a crease
+  bool faced;      // whether the point is in front of the wall, and not beyond one of its sharp edges
 };
 
-// An invocation has one such list at a time.
+// The walls at a point. An invocation has only one such list at a time.
 struct Walls {
   uint count;
   MEMBER_LIST(Wall, wall, SPHERE_MAX_WALLS)
@@ -24,7 +24,7 @@ struct Walls {
 LANE_LIST(Wall, wall_lists, SPHERE_MAX_WALLS)
 #define WALL(walls, i) LISTED(walls.wall, wall_lists, i)
 
-// Adds a wall or finds it; returns its number, or SPHERE_MAX_WALLS if there are too many.
+// Adds a wall unless it is in the list. Returns its number, or SPHERE_MAX_WALLS if the list is full.
 INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
   const float like = 0.999f;  // cosine
   uint i = 0u;
@@ -42,7 +42,7 @@ INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
   return i;
 }
 
-// The walls at a point; none where no crease is near, or where it lies deep in one of them.
+// Returns the walls at a point. There are none if no crease is near, or if the point is deep in one of the walls.
 INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   Walls walls;
   walls.count = 0u;
@@ -50,7 +50,7 @@ INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(vec3) point)
   if (list.end == list.first || !is_crease(other, listed_edge(other, list.end - 1u))) return walls;
   float reach = CREASE_REACH * field.cell, flush = 0.002f * field.cell, same = 0.05f * field.cell;
   bool near = false;
-  for (uint k = list.end; k > list.first; --k) {  // creases come last
+  for (uint k = list.end; k > list.first; --k) {  // creases are at the end of the list
     uint e = listed_edge(other, k - 1u);
     bool crease = is_crease(other, e);
     if (!crease && !near) break;

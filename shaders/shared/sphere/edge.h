@@ -12,14 +12,14 @@ INLINE bool is_crease(IN(Samples) samples, uint e) {
   return e >= first_crease(samples);
 }
 
-// Where a sample is, in the field's frame, and what the field is there.
+// The position of a sample in the frame of the field, with distance and gradient of the field there.
 struct Touch {
   vec3 point, gradient;
   float distance;
 };
 
-// Deepest point of the field along the edge from p to q, whose ends both rise away from its inside; false if there is
-// none, or if it is no deeper than an end: that needs no contact of its own.
+// Finds the deepest point of the field along the edge from p to q. Returns false if the depth does not increase from
+// both ends, or if the point is no deeper than an end, so that it needs no contact of its own.
 INLINE bool descend(IN(Field) field, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   // Regula falsi on the slope along the edge, which is monotonic where the other surface is convex.
   vec3 along = q.point - p.point;
@@ -43,8 +43,8 @@ INLINE bool descend(IN(Field) field, IN(Touch) p, IN(Touch) q, INOUT(Touch) touc
   return touch.distance < min(p.distance, q.distance);
 }
 
-// Where the lines p + s u and r + t v are nearest, w = p - r; false where they are parallel to within a degree: nodes
-// stand for such edges. `uu`: square of u's length.
+// Finds the nearest points of the lines p + s u and r + t v, with w = p - r. Returns false if the lines are parallel to
+// within a degree: such edges are represented by their nodes. `uu`: squared length of u.
 INLINE bool nearest_points(IN(vec3) u, float uu, IN(vec3) v, IN(vec3) w, OUT(float) s, OUT(float) t) {
   const float as_parallel = 3e-4f;  // square of the sine
   float uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
@@ -53,24 +53,25 @@ INLINE bool nearest_points(IN(vec3) u, float uu, IN(vec3) v, IN(vec3) w, OUT(flo
   return det >= as_parallel * uu * vv;
 }
 
-// Whether an edge can be pressed along a normal, where `away` points roughly out of its part.
+// Whether a contact may press on an edge along a normal. `away` points roughly out of the part of the edge.
 INLINE bool presses_between(IN(Edge) edge, IN(vec3) normal, IN(vec3) away) {
-  const float least_along = 0.3f;  // of the normal along `away`, which may lean, but not to the other side
-  const float most_beyond = 0.1f;  // of the normal beyond the faces of the edge: 6 degrees
+  const float least_along = 0.3f;  // smallest component of the normal along `away`: the normal may be tilted, but not
+                                   // to the other side
+  const float most_beyond = 0.1f;  // largest component of the normal beyond the faces of the edge: 6 degrees
   if (dot(normal, away) < least_along) return false;
   return bounds_of(edge.cone) == 0u ||
          max(dot(normal, bound_at(edge.cone, 0u)), dot(normal, bound_at(edge.cone, 1u))) <= most_beyond;
 }
 
-// Normal of two directions, on the side of `away`.
+// Returns the unit normal of two directions that is on the side of `away`.
 INLINE vec3 common_normal(IN(vec3) u, IN(vec3) v, IN(vec3) away) {
   vec3 normal = unit(cross(u, v));
   if (dot(normal, away) < 0.0f) normal = -normal;
   return normal;
 }
 
-// Whether a point is beside an edge, and not past an end of it, where another edge is, or a corner that is not convex
-// all round. `along` the edge; `off`: from its line to the point.
+// Whether a point is beside an edge and not past one of its ends, where another edge follows, or a corner that is not
+// convex all around. `along`: direction of the edge; `off`: vector from its line to the point.
 INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float flush, OUT(vec3) along, OUT(vec3) off) {
   along = node_at(samples, edge.b) - node_at(samples, edge.a);
   vec3 from_end = point - node_at(samples, edge.a);
@@ -91,13 +92,13 @@ INLINE Faces faces_at(IN(Cone) cone, IN(vec3) along) {
   return faces;
 }
 
-// What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
-// the face behind it.
+// Tolerance (m) within which a point counts as level with a face: rounding may make it protrude by that much. With a
+// larger tolerance, a point that has passed an edge would still be supported by the face behind the edge.
 INLINE float flush_in(IN(Field) field) {
   return 0.002f * field.cell;
 }
 
-// Whether a point lies outside a face that meets a sharp edge within a cell of it. The grid cannot decide this in a tip
+// Whether a point is outside a face that ends at a sharp edge within one cell. The grid cannot decide this in a tip
 // that is thinner than its cells.
 INLINE bool is_outside(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float flush = flush_in(field);
@@ -112,9 +113,9 @@ INLINE bool is_outside(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   return false;
 }
 
-// Where the edge from p to q crosses one of the other part: depth and direction are those of the nearest such edge,
-// along the common normal of both, if both can be pressed along it. `touch` is the field's answer, and is replaced; it
-// is left as it was, and false returned, if there is none.
+// Finds the edge of the other part that the edge from p to q crosses. Depth and direction are those of the nearest such
+// edge along the common normal of both, if contacts may press on both along it. `touch` is the result of the field and
+// is replaced; if there is no such edge, it stays as it was, and false is returned.
 INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(Touch) touch) {
   vec3 u = q - p, from = touch.point, out_of = touch.gradient;
   float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(touch.distance), SPHERE_EDGE_REACH * field.cell);
@@ -130,7 +131,7 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
     if (apart >= nearest) continue;
     vec3 normal = common_normal(u, v, out_of);
     if (!presses_between(edge, normal, out_of)) continue;
-    // Of a tip that lies beside another one, the far edges would press it back: through the other tip.
+    // For a tip beside another tip, the far edges would push it back through the other tip.
     if (dot(between, normal) < -flush_in(field) && is_outside(other, field, on_u)) continue;
     nearest = apart;
     touch.point = on_u;
@@ -141,8 +142,8 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
   return found;
 }
 
-// Whether a line through a point along a unit direction crosses a sharp edge of the other part within a cell, which can
-// be pressed along the `normal` of both. `away` points roughly out of the other part.
+// Whether a line through a point along a unit direction crosses a sharp edge of the other part within one cell, and
+// contacts may press on that edge along the `normal` of both. `away` points roughly out of the other part.
 INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) direction, IN(vec3) away,
                         INOUT(vec3) normal) {
   float nearest = field.cell;
@@ -165,8 +166,8 @@ INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(v
   return found;
 }
 
-// Whether a point of the surface lies on a sharp edge, or a corner where such edges end, as far as the grid can
-// resolve.
+// Whether a point of the surface is on a sharp edge, or on a corner where such edges end, within the resolution of the
+// grid.
 INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float near = 0.5f * field.cell;
   Range list = edges_near(other, field, point);
@@ -182,12 +183,13 @@ INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
 
 const uint OF_A_FACE = 0u, TO_AN_EDGE = 1u, BY_THE_FIELD = 2u;
 
-// An exit of a part: unit direction, and m to its surface (negative inside).
+// A direction in which a point leaves a part: unit direction, and distance to the surface (m, negative inside).
 struct Exit {
   vec3 away;
   float distance;
-  uint number;  // among those that press at one point
-  uint kind;    // the normal of a face; a direction to an edge, which may lean; or either, as the field has it
+  uint number;  // number among the exits that press at one point
+  uint kind;    // the normal of a face; a direction to an edge, which may be tilted; or the gradient of the field,
+                // which may be either
 };
 
 INLINE Exit exit_of(uint kind, IN(vec3) away, float distance) {
@@ -199,7 +201,7 @@ INLINE Exit exit_of(uint kind, IN(vec3) away, float distance) {
   return exit;
 }
 
-// The shortest first. An invocation has one such list at a time.
+// A list of exits, the shortest first. An invocation has only one such list at a time.
 struct Exits {
   uint count;
   MEMBER_LIST(Exit, exit, SPHERE_MAX_EXITS)
@@ -207,19 +209,19 @@ struct Exits {
 LANE_LIST(Exit, exit_lists, SPHERE_MAX_EXITS)
 #define EXIT(exits, i) LISTED(exits.exit, exit_lists, i)
 
-// Sharp edges that a point is beside, as they are found.
+// The sharp edges beside a point, while they are collected.
 struct EdgesBeside {
-  Exits faces;                                   // one of each face that meets there
-  MEMBER_LIST(float, to_edge, SPHERE_MAX_EXITS)  // m, from the point to the edge that each face is of
-  Exit outside;                                  // by the nearest edge, for a point outside
+  Exits faces;                                   // one exit for each face that meets an edge
+  MEMBER_LIST(float, to_edge, SPHERE_MAX_EXITS)  // m, from the point to the edge at which each face was found
+  Exit outside;                                  // exit by the nearest edge, for a point outside
   float nearest;                                 // m, to that edge
 };
 LANE_LIST(float, to_edge_lists, SPHERE_MAX_EXITS)
 #define TO_EDGE(found, i) LISTED(found.to_edge, to_edge_lists, i)
 
-// Adds the exit by a face, or takes the place of one of the same face by an edge farther away.
+// Adds the exit through a face. It replaces an exit through the same face that was found at an edge farther away.
 INLINE void add_face(INOUT(EdgesBeside) found, IN(Exit) face, float to_edge) {
-  const float like = 0.95f;  // cosine of normals that count as of one face
+  const float like = 0.95f;  // cosine between normals that count as those of one face
   uint i = 0u;
   while (i < found.faces.count && dot(EXIT(found.faces, i).away, face.away) < like) ++i;
   if (i < found.faces.count && TO_EDGE(found, i) <= to_edge) return;
@@ -234,7 +236,7 @@ INLINE void add_face(INOUT(EdgesBeside) found, IN(Exit) face, float to_edge) {
   found.faces.count = max(found.faces.count, i + 1u);
 }
 
-// Adds both faces of an edge that a point is `off` from.
+// Adds both faces of an edge from which a point is `off` away.
 INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN(vec3) off) {
   float to_edge = length(off);
   vec3 into_1 = bound_at(cone, 0u), into_2 = bound_at(cone, 1u);
@@ -261,15 +263,15 @@ INLINE void sort_by_length(INOUT(Exits) exits) {
     }
 }
 
-// Whether an end of an edge is a corner.
+// Whether an edge ends at a corner.
 INLINE bool ends_at(IN(Samples) samples, IN(Edge) edge, IN(vec3) corner, float same) {
   vec3 from_a = node_at(samples, edge.a) - corner, from_b = node_at(samples, edge.b) - corner;
   return min(dot(from_a, from_a), dot(from_b, from_b)) < same * same;
 }
 
-// Whether a point that is beside no sharp edge, but past the end of some, is outside a convex corner there: then it is
-// nearest to the corner itself. Where fewer than three end, the surface goes on; where a crease ends, too, it may be
-// before another face.
+// For a point that is past the ends of sharp edges but beside none: whether it is outside a convex corner there, so
+// that the corner itself is the nearest point. If fewer than three edges end there, the surface continues; if a crease
+// ends there as well, the point may be in front of another face.
 INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) corner) {
   float away = length(point - corner), same = 0.01f * field.cell;
   if (away >= field.cell || away <= flush_in(field)) return false;
@@ -284,15 +286,16 @@ INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(
   return count > 2u;
 }
 
-// The exits of a point within a cell of sharp edges, by the planes of the faces that meet there: inside all of them
-// each is one, outside there is one, that to the nearest edge or above its face. None where no edge is near.
+// Returns the exits of a point within one cell of sharp edges, by the planes of the faces that meet there. Inside all
+// faces, each face is an exit. Outside, there is one exit: to the nearest edge, or above its face. The list is empty if
+// no edge is near.
 INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float flush = flush_in(field);
   EdgesBeside found;
   found.faces.count = 0u;
   found.nearest = field.cell;
   found.outside = exit_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
-  vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // the nearest end of an edge that the point is past
+  vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // the nearest end of the edges that the point is past
   Range list = edges_near(other, field, point);
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));

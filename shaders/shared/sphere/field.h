@@ -2,8 +2,8 @@
 // before: Field (cell, padding, ball); and afterwards: sample_field(field, point) and sample_field(field, point,
 // gradient), by means of cell_at().
 
-// Where a point of a grid lies: values at the corners of its cell (m; x fastest, then y, then z), its place in the cell
-// (0 to 1), and the distance to the grid from a point beyond it (m).
+// The cell of the grid that contains a point: values at its corners (m; x fastest, then y, then z), the position of the
+// point in the cell (0 to 1), and the distance (m) from the grid if the point is outside it.
 struct Cell {
   float c0, c1, c2, c3, c4, c5, c6, c7;
   float u, v, w;
@@ -20,13 +20,13 @@ INLINE float value_in(IN(Cell) c) {
   return between(between(x0, x1, c.v), between(x2, x3, c.v), c.w);
 }
 
-// Beyond the grid: a lower bound, the distance to the grid added.
+// Outside the grid, returns a lower bound of the distance: the distance to the grid is added.
 INLINE float bounded(IN(Cell) c, float value, float padding) {
   float beyond = max(value, c.outside + padding);
   return c.outside > 0.0f ? beyond : value;
 }
 
-// Distance (m, negative inside) and the direction in which it grows.
+// Returns the distance (m, negative inside) and the direction in which it grows.
 INLINE float distance_in(IN(Cell) c, float cell, float padding, IN(vec3) point, OUT(vec3) gradient) {
   float x0 = between(c.c0, c.c1, c.u), x1 = between(c.c2, c.c3, c.u);
   float x2 = between(c.c4, c.c5, c.u), x3 = between(c.c6, c.c7, c.u);
@@ -34,8 +34,8 @@ INLINE float distance_in(IN(Cell) c, float cell, float padding, IN(vec3) point, 
   float dx0 = between(c.c1 - c.c0, c.c3 - c.c2, c.v), dx1 = between(c.c5 - c.c4, c.c7 - c.c6, c.v);
   gradient = vec3(between(dx0, dx1, c.w), between(x1 - x0, x3 - x2, c.w), y1 - y0);
   float steep = length(gradient), from_center = length(point);
-  // On the medial axis the slopes of both sides cancel: out is then away from the centre of mass.
-  if (steep > 1e-3f * cell)  // differences of neighbours: a slope of 1 is one cell
+  // On the medial axis, the slopes of both sides cancel. The exit is then away from the centre of mass.
+  if (steep > 1e-3f * cell)  // differences between neighbours, for which a slope of 1 is one cell
     gradient /= steep;
   else if (from_center > 0.0f)
     gradient = point / from_center;

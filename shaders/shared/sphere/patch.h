@@ -7,11 +7,12 @@
 //
 // Use: gather() for all contacts, close_patch(), spread() for all contacts, then both torques.
 struct Patch {
-  Real impulse;          // N s, of all contacts
-  Real3 center, normal;  // m from a's centre of mass
-  Real spin, tipping;    // rad/s, of a against b
+  Real impulse;          // N s, sum over all contacts
+  Real3 center, normal;  // m, from the centre of mass of a; and unit normal
+  Real spin, tipping;    // rad/s, rotation of a relative to b about the normal, and perpendicular to it
   Real3 tip_axis, across;
-  Real wide, wide_across;  // squares of lengths, times impulse
+  Real wide, wide_across;  // squared distances of the contacts from the centre, and across the axis of tipping,
+                           // weighted by impulse (m2 N s)
 };
 
 INLINE Patch open_patch(IN(Real3) zero) {
@@ -44,7 +45,7 @@ INLINE void spread(INOUT(Patch) area, Real impulse, IN(Real3) ra) {
   area.wide_across += impulse * side * side;
 }
 
-// Largest moments (N m s). radius: m; a ball, which rolls freely, has an arm of 0.
+// Return the largest torque impulses (N m s). radius: m, of the patch; arm: m, 0 for a ball, which rolls freely.
 INLINE Real most_against_spin(IN(Patch) area, Real radius, Real friction) {
   Real widest = 4.0f * radius * radius * area.impulse;
   return select(area.wide <= widest, 2.0f / 3.0f * radius * friction * area.impulse, all_lanes(0.0f));
@@ -54,7 +55,8 @@ INLINE Real most_against_tipping(IN(Patch) area, Real radius, Real arm) {
   return select(area.wide_across <= widest, arm * area.impulse, all_lanes(0.0f));
 }
 
-// Moment that takes a turn about an axis, turns the spin that one about it gives.
+// Returns the torque impulse that stops a rotation about an axis, at most `most`. turn_a, turn_b: changes of angular
+// velocity by a unit torque impulse about the axis.
 INLINE Real moment_against(Real speed, Real most, IN(Real3) axis, IN(Real3) turn_a, IN(Real3) turn_b) {
   Real k = dot(axis, turn_a) + dot(axis, turn_b);
   return min(max(select(k > 0.0f, speed / k, all_lanes(0.0f)), -most), most);

@@ -3,17 +3,19 @@
 #ifndef SHARED_SPHERE_PLAN_H
 #define SHARED_SPHERE_PLAN_H
 struct StepPlan {
-  int sub_steps, sweeps;  // of each: sweeps before bodies move
-  int relaxing_sweeps;    // after. Rigid contacts push slowly, so that one takes back what is left of it; with none
-                          // a gear on its teeth rolls forever
-  int slip_sub_steps;     // the first ones, without friction: while the forces of a probe are found
+  int sub_steps, sweeps;  // sweeps: in each sub-step, before bodies move
+  int relaxing_sweeps;    // sweeps after bodies have moved. Rigid contacts push slowly, so that one sweep removes the
+                          // velocity that is left; without it, a gear on its teeth rolls forever
+  int slip_sub_steps;     // the first sub-steps, which have no friction while the forces of a probe are found
   float sub_step;         // s
-  float half_way;         // s from the step's start to the mean of its sub-steps' beginnings. Contacts, levers and
-                          // normals are of then, which makes the motion the symplectic Euler method over the
-                          // sub-steps and keeps energy; with those of the start, what rolls on an edge gains some
+  float half_way;         // s from the start of the step to the mean of the times at which its sub-steps begin.
+                          // Contacts, lever arms and normals belong to that time, which makes the motion the symplectic
+                          // Euler method over the sub-steps and conserves energy; with those of the start of the step,
+                          // bodies that roll on an edge gain energy
 };
 
-// time_step: s; sweeps: of a sub-step, before and after; probe_slip: s; forgets: the step begins without forces.
+// Plans a step. time_step: s; sweeps: of a sub-step, before and after bodies move; probe_slip: s; forgets: whether the
+// step starts without forces.
 INLINE StepPlan plan_step(float time_step, int sub_steps, int sweeps, bool rigid, bool forgets, float probe_slip) {
   StepPlan plan;
   plan.sub_steps = sub_steps;

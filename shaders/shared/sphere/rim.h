@@ -2,17 +2,18 @@
 // the nodes of the part. One candidate is found for each place along the line where it is nearest, or deepest. The
 // includer includes slide.h before.
 
-const int RIM_ROUNDS = 8;  // each takes a third off where the nearest place may be
+const int RIM_ROUNDS = 8;  // rounds of the search; each removes a third of the interval that contains the nearest point
 
-// Places i from first to last stand at i times step_size (m) along the line.
+// Points along the rim near a part. Point i, from first to last, is i times step_size (m) along the line.
 struct Rim {
-  vec3 start;  // of the line, from the part's centre, bin frame
+  vec3 start;  // start of the line, relative to the part's centre, bin frame (m)
   vec3 along;
   float step_size;
   int first, last;
 };
 
-// False if no part of that radius, at `position`, comes within the margin. `top`: height of the rim.
+// Finds the points of the rim near a part with that radius at `position`. Returns false if the part does not come
+// within the margin. `top`: height of the rim (m).
 INLINE bool find_rim(IN(Plane) plane, float top, IN(vec3) position, float radius, float margin, float face_spacing,
                      INOUT(Rim) rim) {
   vec3 up = vec3(0.0f, 0.0f, 1.0f), normal = normal_of(plane);
@@ -28,7 +29,7 @@ INLINE bool find_rim(IN(Plane) plane, float top, IN(vec3) position, float radius
   return true;
 }
 
-// In the frame of the part.
+// Returns a point of the rim in the frame of the part.
 INLINE vec3 on_rim(IN(Rim) rim, IN(mat3) rotation, float t) {
   return turned_back(rotation, rim.start + t * rim.along);
 }
@@ -37,18 +38,18 @@ INLINE float distance_at(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, int i)
   return sample_field(field, on_rim(rim, rotation, rim.step_size * float(i)));
 }
 
-// Whether the rim may touch the part around a place, by the distances there and at the places beside it.
+// Whether the rim may touch the part around a point, by the distances there and at the two neighbouring points.
 INLINE bool may_touch_rim(IN(Rim) rim, float before, float here, float after, float margin) {
-  // Or an end of where it lies along a face.
+  // The point is nearest, or it is an end of a stretch in which the rim lies along a face.
   bool nearest = here <= before && here <= after && (here < before || here < after);
   return nearest && here - rim.step_size < margin;
 }
 
-// Where the part is nearest to the rim around place i: t, and the part's field there, in its frame. Returns whether the
-// rim can press there.
+// Finds where the part is nearest to the rim around point i: the coordinate t along the rim, and the part's field
+// there, in the part's frame. Returns whether the rim can press there.
 INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) rotation, int i, INOUT(float) t,
                       INOUT(Touch) touch) {
-  const float least_out = -0.1f;  // the exit from the rim is upwards, off the wall, or between the two
+  const float least_out = -0.1f;  // the exit from the rim points up, off the wall, or between both
   float lower = rim.step_size * float(i - 1), upper = rim.step_size * float(i + 1);
   for (int turn = 0; turn < RIM_ROUNDS; ++turn) {
     float t0 = lower + (upper - lower) / 3.0f, t1 = upper - (upper - lower) / 3.0f;
@@ -64,7 +65,7 @@ INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) ro
   return dot(way_out, vec3(0.0f, 0.0f, 1.0f)) >= least_out && dot(way_out, normal_of(plane)) >= least_out;
 }
 
-// Number of what touches around place i of the rim of plane k.
+// Returns the feature number of a contact around point i of the rim of plane k.
 INLINE uint rim_feature(int i, uint k) {
   return SPHERE_SIDE_B | ((uint(i + 0x400000) & 0x7fffffu) + k * SPHERE_PLANE);
 }

@@ -3,15 +3,15 @@
 // energy to hanging parts (for a yoke on a ridge 8 % per second), and those of half of the whole step would remove as
 // much.
 
-const float LEAST_TURN = 1e-5f;  // rad; below, a lever moves by less than contacts overlap
+const float LEAST_TURN = 1e-5f;  // rad; with less rotation, a lever arm moves by less than contacts overlap
 
-// How far a body is (m, rad) halfway through the step from where it started.
+// Displacement (m) and rotation (rad) of a body from the start of the step to the time at which contacts are evaluated.
 struct Ahead {
   vec3 moved, turned;
 };
 
-// Takes the levers and the normal of the step's start halfway through it. The point goes with the sample, the normal
-// with the field; of_a: the field is a's.
+// Moves the lever arms and the normal from the start of the step to the time at which contacts are evaluated. The point
+// moves with the sample's body, and the normal with the body of the field; of_a: the field belongs to a.
 INLINE void go_half_way(bool of_a, IN(Ahead) a, IN(Ahead) b, INOUT(vec3) ra, INOUT(vec3) rb, INOUT(vec3) normal) {
   if (max(dot(a.turned, a.turned), dot(b.turned, b.turned)) <= LEAST_TURN * LEAST_TURN) return;
   vec3 moved = of_a ? vec3(b.moved + cross(b.turned, rb)) : vec3(a.moved + cross(a.turned, ra));
@@ -20,9 +20,9 @@ INLINE void go_half_way(bool of_a, IN(Ahead) a, IN(Ahead) b, INOUT(vec3) ra, INO
   normal = unit(normal + cross(of_a ? a.turned : b.turned, normal));
 }
 
-// Levers of one common point of what is hit, of where the bodies' centres of mass x are now and the contact's points
-// with them: with those of halfway through the step an impact would turn each of two bodies about a lever that is up
-// to half a step's displacement off, and change their common angular momentum. Returns what lies between the points.
+// Computes the lever arms of an impact for one common point, from the present centres of mass x and contact points. The
+// lever arms at mid-step would be wrong by up to half a step's displacement; an impact would rotate each body about a
+// different point and change their total angular momentum. Returns the vector between the two contact points.
 INLINE vec3 levers_now(IN(vec3) x_a, IN(vec3) on_a, IN(vec3) x_b, IN(vec3) on_b, OUT(vec3) ra, OUT(vec3) rb) {
   vec3 between = on_b - on_a, center = on_a + 0.5f * between;
   ra = center - x_a;

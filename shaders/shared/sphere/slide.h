@@ -3,8 +3,8 @@
 // face_spacing_of(samples), Plane, normal_of(plane), offset_of(plane), is_wall(plane), Carry (rotation, offset), and
 // Solid: a field, or a plane of a bin whose walls end at `top` (m).
 
-// Distance to the solid beyond a plane, and the direction out of it. A wall ends at the bin's top: it is the corner
-// between its inner face and the rim's level, as thick as it takes.
+// Returns the distance (m) to the solid behind a plane, and the direction out of it. A wall ends at the height of the
+// rim: it is the solid corner between its inner face and the plane of the rim, without an outer face.
 INLINE float distance_to_plane(IN(Plane) plane, float top, IN(vec3) p, OUT(vec3) away) {
   vec3 up = vec3(0.0f, 0.0f, 1.0f), normal = normal_of(plane);
   float face = dot(normal, p) - offset_of(plane), above = dot(p, up) - top;
@@ -17,18 +17,19 @@ INLINE float distance_to_plane(IN(Plane) plane, float top, IN(vec3) p, OUT(vec3)
   return distance;
 }
 
-// Distance (m, negative inside) and the direction out.
+// Returns the distance (m, negative inside) and the direction out of the solid.
 INLINE float distance_to(IN(Solid) solid, IN(vec3) p, OUT(vec3) away) {
   if (solid.is_plane) return distance_to_plane(solid.plane, solid.top, p, away);
   return sample_field(solid.field, p, away);
 }
 
-// A node of a curved face stands for its surroundings: slides it along its own surface to where it lies deepest. The
-// distance follows from the angle between the node's normal and the gradient of the depth, and from how fast the
-// normals turn (cone); the part's own field brings the point back to the surface. `touch` is the node's own in the
-// frame of the solid, and is replaced. `carry`: from the node's frame to the solid's.
+// Moves a node of a curved face, which represents its surroundings, along its own surface to the deepest point. The
+// length of the movement follows from the angle between the normal of the node and the gradient of the depth, and from
+// how fast the normals rotate along the surface (cone). The field of the node's own part brings the point back to the
+// surface. `touch` is the result for the node itself in the frame of the solid, and is replaced. `carry`: from the
+// frame of the node to that of the solid.
 INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node, IN(Solid) solid, INOUT(Touch) touch) {
-  const float flat_angle = 0.02f;  // rad: below it the node itself is deep enough
+  const float flat_angle = 0.02f;  // rad: at a smaller angle, the node itself is deep enough
   IN(Cone) cone = cone_at(samples, node);
   float face_spacing = face_spacing_of(samples);
   if (bounds_of(cone) != SPHERE_AXIS || own.ball > 0.0f || face_spacing <= 0.0f) return;
@@ -45,7 +46,7 @@ INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node
     there -= off * normal_there;
     vec3 carried = carry.rotation * there + carry.offset;
     float deeper = distance_to(solid, carried, slope);
-    // Past the deepest point, over the rim of the face, or where another node stands.
+    // The point has passed the deepest point, has left the face, or is at another node.
     if (deeper >= touch.distance || abs(sample_field(own, there)) > 0.1f * own.cell ||
         length(there - start) > face_spacing) {
       distance_per_angle *= 0.5f;

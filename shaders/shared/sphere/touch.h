@@ -8,17 +8,17 @@
 // rad: the predicted motion of the samples' body relative to the field's body until the step ends); ahead (m, initially
 // 0); margin (m, the largest distance of a candidate); way_back.
 
-const float NEARLY_ALL = 0.99f;  // of an exit a cone must leave: 8 degrees
-const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: faces that lie on each other
-const float LEANS = 0.02f;       // sine of the angle by which a face leans against an edge that dips below it
+const float NEARLY_ALL = 0.99f;  // smallest cosine between an exit and its rotation into a cone: 8 degrees
+const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: within this angle, two faces count as lying on each other
+const float LEANS = 0.02f;       // sine of the angle by which a face is tilted against an edge that dips below it
 
-// Of the grid where it bends (m).
+// Returns the error of the field (m) where the surface has an edge.
 INLINE float error_of(IN(Field) field) {
   return field.ball > 0.0f ? 0.0f : 0.5f * field.cell;
 }
 
-// How far (m) a sample at `point`, where the field is `distance`, is from being outside along a unit direction, having
-// been inside; negative if it is not, for as long as `reach`.
+// Returns how far (m) a sample at `point`, where the field is `distance`, must move along a unit direction until it
+// leaves the part, having been inside. Returns a negative value if it does not leave within `reach`.
 INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float distance, float reach) {
   float least = 0.25f * field.cell, t = 0.0f, before = distance;
   bool inside = distance < 0.0f;
@@ -33,10 +33,12 @@ INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float dist
   return -1.0f;
 }
 
-// `point` may be that where a sample will be, view.ahead of where it is: what it will stand before is decided as it
-// lies to the sample now, and does not press before it is there.
+// Emits the candidate of a sample. `place` may be the predicted position of the sample, which is view.ahead from its
+// present one: the contact is then with the surface that the sample will face, with the distance of its present
+// position, and does not press before the sample is there.
 //
-// A normal that was `turned` is that of the sample's surface: it goes on with that body, and the point with the other.
+// If the normal was `turned`, it is that of the sample's surface: it moves with the sample's body, and the point moves
+// with the other body.
 INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, bool turned, float distance_there, uint number) {
   float nearer = dot(away, view.ahead), distance = distance_there;
   vec3 point = place - view.ahead;
@@ -49,8 +51,8 @@ INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, bool turned,
     emit(view, surface - distance * away, away, distance, feature);
 }
 
-// Whether the sample's own surface can be pressed against an exit, of which `least` must be left; `turned` into its
-// cone.
+// Whether a contact may press on the sample's own surface along an exit. The cosine of the rotation into the sample's
+// cone must be at least `least`; `turned` is the rotated exit.
 INLINE bool turn(IN(View) view, IN(Cone) cone, IN(vec3) away, float least, OUT(vec3) turned) {
   vec3 pressed = -turned_back(view.to_field.rotation, away);
   if (!turn_into_cone(cone, pressed, least)) return false;
@@ -58,25 +60,27 @@ INLINE bool turn(IN(View) view, IN(Cone) cone, IN(vec3) away, float least, OUT(v
   return true;
 }
 
+/// Whether the direction of an exit may be tilted because it leads to an edge or a corner.
 INLINE bool leans(IN(View) view, IN(vec3) point, IN(Exit) exit) {
   if (exit.kind != BY_THE_FIELD) return exit.kind == TO_AN_EDGE;
   return is_on_edge(view.other, view.field, point - exit.distance * exit.away);
 }
 
-// Whether the sample was inside already when the step began, by more than the grid can resolve.
+// Whether the sample was inside by more than the resolution of the grid already when the step began.
 INLINE bool is_stuck(IN(View) view, IN(vec3) point, IN(Exit) exit) {
   float deep = -2.0f * view.field.cell;
   if (exit.kind != BY_THE_FIELD || exit.distance >= deep) return false;
   return exit.distance + max(-dot(exit.away, view.drift + cross(view.twist, point)), 0.0f) < deep;
 }
 
-// A candidate, if the sample's own surface can be pressed against the exit. A face presses along its normal,
-// whatever is pressed against it: turned into the cone of an edge that is not what touches, the normal threw parts
-// sideways by up to a quarter of the speed at which they fell onto a plate. An exit to an edge or a corner is turned
-// into the cone: else parts whose edges lie flush would press each other sideways. So is that of what is stuck inside,
-// where the nearest face says little: it must come out somehow.
+// Emits a candidate if a contact may press on the sample's own surface along the exit. A face presses along its own
+// normal, whatever touches it: when the normal was rotated into the cone of an edge that did not touch, parts were
+// thrown sideways with up to a quarter of the speed at which they fell onto a plate. An exit to an edge or a corner is
+// rotated into the cone; otherwise, parts with flush edges would push each other sideways. The exit of a sample that is
+// stuck deep inside is rotated as well, because the nearest face is not significant there and the sample must come out
+// somehow.
 INLINE bool press(IN(View) view, IN(vec3) point, IN(Exit) exit, IN(Cone) cone, uint feature) {
-  const float level = 0.999999f;  // cosine: 0.08 degrees
+  const float level = 0.999999f;  // cosine of 0.08 degrees, within which no rotation is needed
   bool stuck = is_stuck(view, point, exit);
   vec3 turned;
   if (!turn(view, cone, exit.away, stuck ? LEAST_LEFT : NEARLY_ALL, turned)) return false;
@@ -87,8 +91,9 @@ INLINE bool press(IN(View) view, IN(vec3) point, IN(Exit) exit, IN(Cone) cone, u
   return true;
 }
 
-// A face that leans against an edge of the sample is not what it presses where that crosses an edge of the face: it
-// presses along the normal of both edges, and two such nodes, one on each, would hold each other like a wedge.
+// Whether an edge of the sample crosses an edge of the face near an exit. The contact then presses along the normal of
+// both edges, and the exit through the face is not used: two nodes, one on each side, would otherwise hold each other
+// like a wedge.
 INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) away) {
   uint bounds = bounds_of(cone);
   if (bounds == SPHERE_AXIS) return false;
@@ -100,8 +105,8 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
   return false;
 }
 
-// Of the walls of a crease each presses that is near, but for those out of which another face leads sooner: that of a
-// sharp edge beside them.
+// Returns the exits of a sample in a crease: each near wall presses, except those from which another face, that of a
+// sharp edge beside them, is a shorter exit.
 INLINE Exits exits_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
   float flush = 0.002f * view.field.cell, soonest = -view.field.cell;
   Exits exits;
@@ -137,11 +142,12 @@ INLINE Exits exits_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
   return exits;
 }
 
-// For a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest exit: of parts
-// that lie flush (two plates side by side on the floor) that is the face level with it, although it is deeper in behind
-// another. It goes back through its own body, along the axis of its cone, to the face it comes out of: for at most
-// four cells, or, deep inside, unless it would be out sooner in the other direction, for then it did not come in
-// through that face. False if there is no such exit.
+// Finds another exit for a sample that is inside, or nearly so, and on whose surface no contact may press along the
+// nearest exit. For example, for two plates that are side by side on the floor, the nearest exit is the face that is
+// level with the sample, although the sample is deeper behind another face. The search goes back through the sample's
+// own body, along the axis of its cone, to the face where it comes out: for at most four cells or, if the sample is
+// deep inside, unless the opposite direction leaves the part sooner, because the sample did not enter through this face
+// then. Returns false if there is no such exit.
 INLINE bool finds_exit_back(IN(View) view, IN(Touch) at, IN(Cone) cone, OUT(Exit) exit) {
   float cell = view.field.cell, behind = 0.0f, reach = 4.0f * cell;
   if (!view.way_back || at.distance >= error_of(view.field)) return false;
@@ -158,10 +164,11 @@ INLINE bool finds_exit_back(IN(View) view, IN(Touch) at, IN(Cone) cone, OUT(Exit
   return exit.distance <= 0.0f;
 }
 
-// Makes a contact of the first exit that fits; in a crease, of each wall that does. Near a sharp edge the exits
-// are exact, so that a sample whose normal cone fits none of them does not press there. (An exit past an edge, turned
-// into the cone, held up parts that leant against the edge from the side.) Where none of them ends outside, the exit is
-// the field's, or else the one back. In one loop: compilers put all that is called in place.
+// Emits a contact for the first exit that fits; in a crease, for each wall that fits. Near a sharp edge the exits are
+// exact, so that a sample whose normal cone fits none of them does not press there. (An exit past an edge that was
+// rotated into the cone held up parts that leant against the edge from the side.) If no exact exit ends outside, the
+// exit of the field is used, or otherwise the one that finds_exit_back() returns. All of this is one loop, because
+// shader compilers expand every call in place.
 INLINE void offer_exits(IN(View) view, IN(Touch) at, IN(Exits) exits, bool creased, IN(Cone) cone, uint feature) {
   bool out_there = creased;
   for (uint i = 0u; i < exits.count + 2u; ++i) {
@@ -170,7 +177,8 @@ INLINE void offer_exits(IN(View) view, IN(Touch) at, IN(Exits) exits, bool creas
     Exit exit = exit_of(BY_THE_FIELD, at.gradient, at.distance);
     if (exact) {
       exit = EXIT(exits, i);
-      // Half a cell beyond is outside, unless this is a seam between shells that touch. A crease is none, but narrow.
+      // Half a cell beyond the exit is outside, unless this is a seam between shells that touch. A crease is no seam,
+      // but it may be narrow.
       vec3 beyond = at.point + (0.5f * view.field.cell - exit.distance) * exit.away;
       if (!creased && sample_field(view.field, beyond) < 0.3f * view.field.cell) continue;
       out_there = true;
@@ -182,7 +190,7 @@ INLINE void offer_exits(IN(View) view, IN(Touch) at, IN(Exits) exits, bool creas
   }
 }
 
-// The nearest of the exits that are exact, where there are such, or that of the field.
+// Returns the nearest of the exact exits, if there are any, or otherwise the exit of the field.
 INLINE Exit nearest_exit(IN(Walls) walls, IN(Exits) exits, IN(vec3) away, float distance) {
   Exit least = exit_of(BY_THE_FIELD, away, distance);
   if (exits.count > 0u) least = EXIT(exits, 0);
@@ -196,9 +204,10 @@ INLINE Exit nearest_exit(IN(Walls) walls, IN(Exits) exits, IN(vec3) away, float 
   return least;
 }
 
-// What comes by an edge until the step ends is held by the face that it will stand before, and not where it is: the
-// plane across the edge would stop it there, a peg above the mouth of its hole. What meets something on its path is
-// held by that as it lies now.
+// Emits the contacts of a sample. A sample that passes an edge before the step ends is held by the face that it will
+// face then, and not by the surface at its present position. Otherwise, the plane across the edge would stop it there,
+// for example a peg above the mouth of its hole. A sample that meets a surface on its path is held by that surface, as
+// seen from its present position.
 INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) {
   const int most_advances = 18;
   View view = given;
@@ -230,34 +239,36 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
   }
   bool creased = walls.count > 0u;
   if (creased) exits = exits_in_crease(view, walls, cone);
-  // Which of the faces of an edge what has no cone presses against is not known.
+  // For a sample without a cone, it is not known against which face of an edge it presses.
   if (bounds_of(cone) == 0u && !creased) exits.count = 0u;
   offer_exits(view, at, exits, creased, cone, feature);
 }
 
-// Whether a node that the field is `distance` from may touch.
+// Whether a node at which the field is `distance` may touch.
 INLINE bool node_may_touch(IN(View) view, float distance) {
   return distance < view.margin + sag_of(view.samples);
 }
 
-// Slides the node to where it is deepest; returns whether it is to be offered.
+// Moves the node to where it is deepest. Returns whether it touches.
 INLINE bool touches_with_node(IN(View) view, uint node, INOUT(Touch) touch) {
   slide(view.samples, view.own, view.to_field, node, solid_of(view.field), touch);
   return touch.distance < view.margin;
 }
 
-// By the distances of its ends: it falls by no more than its length.
+// Whether an edge may touch, by the distances at its ends: the distance decreases along the edge by no more than the
+// length of the edge.
 INLINE bool edge_may_touch(IN(View) view, IN(Edge) edge, float distance_p, float distance_q) {
   return 0.5f * (distance_p + distance_q - length_of(edge)) < view.margin;
 }
 
-// Where edges are nearly parallel, or end, one dips below the other by less than the grid can resolve.
+// Whether an edge may cross an edge of the other part although it has no deepest point of its own: where edges are
+// nearly parallel or end, one of them dips below the other by less than the resolution of the grid.
 INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
   return edge.sharp != 0u && radius_of(view.samples) <= 0.0f && abs(distance) <= view.field.cell;
 }
 
-// An edge e between two ends. Presses where it crosses an edge of the other part; returns whether `touch` is to be
-// offered.
+// Tests edge e between its two ends. A contact presses where it crosses an edge of the other part. Returns whether
+// `touch` must be offered in addition.
 INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   IN(Edge) edge = edge_at(view.samples, e);
   bool lowest = descend(view.field, p, q, touch);
