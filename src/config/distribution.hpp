@@ -39,14 +39,14 @@ struct Distribution {
 
   /// @param own  the request's own value, for `times`
   std::string draw(Random& random, const YAML::Node& own) const;
-  double number(Random& random) const;  ///< of uniform, normal and constant numbers
+  double number(Random& random) const;  ///< draws a number; only for uniform, normal and constant numbers
   /// Values at the ends of what can be drawn.
   std::vector<std::string> ends(const YAML::Node& own) const;
 };
 
 /// Faults go to the source, with their lines; none then.
 std::optional<Distribution> read_distribution(const YAML::Node& node, const std::string& path, Source& source);
-/// The same, of numbers only.
+/// Reads a distribution of numbers only.
 std::optional<Distribution> read_number(const YAML::Node& node, const std::string& path, Source& source);
 
 std::string known_distributions();  ///< for advice

@@ -18,7 +18,7 @@ namespace bin_scenes::config {
 
 using Json = nlohmann::ordered_json;
 
-/// What is wrong with a file, and at which key.
+/// An error in a file: what is wrong, and at which key.
 struct JsonFault {
   std::string path, problem;
 };

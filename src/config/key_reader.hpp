@@ -14,7 +14,7 @@
 
 namespace bin_scenes::config {
 
-/// Where the values of a request come from, for messages: a line of the file, or what overrides it.
+/// The origin of the values of a request, for error messages: a line of the file, or the option that overrides it.
 class Source {
  public:
   /// @param overrides  path -> what the user wrote: "--set path", "--seconds"

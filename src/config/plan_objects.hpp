@@ -13,9 +13,9 @@
 namespace bin_scenes::config {
 
 struct PlanObjects {
-  YAML::Node symmetries;        ///< by model; may be undefined
+  YAML::Node symmetries;        ///< symmetries that the plan states, by model; may be undefined
   std::vector<PlanObject> all;  ///< in order of their first appearance
-  std::string digests;          ///< of their files, and of those of bins and lamps
+  std::string digests;          ///< digests of the model files, and of the files of bins and lamps
 
   using Complain = std::function<void(const std::string& problem, const std::string& remedy)>;
   /// Notes what a request names. Symmetries that are none are complained of.

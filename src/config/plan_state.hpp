@@ -20,7 +20,7 @@ struct Draw {
   Distribution distribution;
 };
 
-/// How many parts there are altogether, and of which lines.
+/// The total number of parts, and how it is divided among the part lines.
 struct Amount {
   std::optional<Distribution> parts;  ///< number of parts
   std::optional<Distribution> fill;   ///< volume of all parts / inner volume of the bin
@@ -34,7 +34,7 @@ YAML::Node own_value(const YAML::Node& root, const std::string& path);
 
 struct Plan::State {
   YAML::Node request;
-  std::string file, base;  ///< of the request: for messages, and what relative paths start at
+  std::string file, base;  ///< path of the request for error messages, and the folder to which its paths are relative
   std::vector<config::Draw> draws;
   config::Amount amount;
   std::size_t surfaces = 1;  ///< kinds of surfaces of a part line whose surface is drawn

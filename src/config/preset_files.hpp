@@ -11,7 +11,7 @@ namespace bin_scenes::config {
 
 /// The first of some folders that is there. Throws an environment Error at `key`.
 std::string first_folder(const std::vector<std::string>& places, const std::string& key, const std::string& remedy);
-/// `config/KIND` of an installation that was moved.
+/// Returns the folder `config/KIND` of an installation that was moved.
 std::vector<std::string> moved_presets(const std::string& kind);
 /// Names of all presets of a folder, sorted.
 std::vector<std::string> presets_in(const std::string& folder);

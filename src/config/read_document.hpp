@@ -22,7 +22,7 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
 
 /// For digests: where the files of bins and lamps lie does not matter, what is in them does.
 Request without_places(Request request);
-/// What is in the pictures of lamps.
+/// Returns the digests of the pictures of lamps.
 std::string digests_of_pictures(const Request& request);
 
 }  // namespace bin_scenes::config

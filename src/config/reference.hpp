@@ -8,7 +8,7 @@ namespace bin_scenes::config {
 
 struct Entry {
   std::string path;   ///< "parts[].count"; the path of a section or list itself for its heading
-  std::string kind;   ///< what a value looks like; "section" or "list" for a heading
+  std::string kind;   ///< the type of a value; "section" or "list" for a heading
   std::string value;  ///< the default; "" if left out means none
   std::string unit, text;
 };

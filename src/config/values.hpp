@@ -21,7 +21,7 @@ struct Mismatch {
   static constexpr std::size_t whole = static_cast<std::size_t>(-1);
 
   std::string expected;
-  std::size_t item = whole;  ///< of a list, where one of its items is to blame
+  std::size_t item = whole;  ///< index of the item of a list that is wrong; `whole` if it is the list itself
   std::string meant = "";    ///< the word that may have been meant
 
   std::string index() const { return item == whole ? "" : "[" + std::to_string(item) + "]"; }
@@ -54,7 +54,7 @@ std::string text_of(const std::vector<double>& value);
 std::string text_of(const std::vector<Pose>& value);
 std::string text_of(const std::vector<Twist>& value);
 
-// What a value looks like, for messages and docs/use/request.md.
+// The words that describe a type of value in error messages and in docs/use/request.md.
 inline std::string kind_of(bool) {
   return "true or false";
 }

@@ -30,7 +30,7 @@ struct IsPlain<Vec3> : std::true_type {};
 template <class T, std::size_t size>
 struct IsPlain<std::array<T, size>> : IsPlain<T> {};
 
-/// What both directions have in common. `Stream` has raw(data, bytes), flag(bool&) and size(list, bytes of an item).
+/// The functions that reading and writing have in common.
 template <class Stream>
 class ByteStream {
  public:

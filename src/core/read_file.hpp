@@ -11,7 +11,7 @@ namespace bin_scenes {
 
 /// @param most  bytes; a larger file is refused before it is read.
 std::string read_file(const std::string& path, std::size_t most = SIZE_MAX);
-/// Of its bytes, as 64 lower-case hex digits. Holds none of them in memory.
+/// Returns the digest of the bytes of a file as 64 lower-case hexadecimal digits.
 std::string sha256_of_file(const std::string& path);
 
 /// A file that is open and regular.

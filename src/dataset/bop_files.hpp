@@ -33,9 +33,9 @@ BinaryImage from_run_lengths(const std::string& json, const std::string& where);
 class BopMasks {
  public:
   BopMasks(const BopView& view, std::string kind);
-  /// None if there is neither a file nor an entry. Safe to call from several threads.
+  /// Returns none if there is neither a file nor an entry.
   std::optional<BinaryImage> of(std::size_t entry) const;
-  /// Where it is, or where it would be.
+  /// Returns the path of the file, whether it exists or not.
   std::string place(std::size_t entry) const;
 
  private:

@@ -26,8 +26,8 @@ namespace bin_scenes {
 
 /// What dataset.json states.
 struct DataSetFacts {
-  std::string plan_sha256;       ///< of everything that decides the scenes
-  std::string plan_text_sha256;  ///< of plan.yaml alone
+  std::string plan_sha256;       ///< digest of everything that determines the scenes
+  std::string plan_text_sha256;  ///< digest of the text of plan.yaml
   std::string version;
   std::size_t heaps = 0, steps = 0, attempts = 0, sensors = 0;
   std::vector<std::string> formats;

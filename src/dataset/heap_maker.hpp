@@ -30,9 +30,9 @@ class HeapMaker {
  private:
   struct Attempt {
     std::optional<Request> request;
-    std::optional<Generator::Result> result;  ///< of the last scene that was made
+    std::optional<Generator::Result> result;  ///< the last scene that was made
     std::vector<std::string> reasons;         ///< why it was not accepted; empty: its scenes wait in their folders
-    std::optional<Error> fault;               ///< of the plan, perhaps
+    std::optional<Error> fault;               ///< an error that may be one of the plan
     bool crowded = false;                     ///< the fault is that too many parts found no room
     std::size_t scenes = 0;
 
@@ -58,7 +58,8 @@ class HeapMaker {
   std::map<Model, double> volumes_;  ///< m3
 };
 
-/// What lies on the disk of a heap, if it is all there: for folders whose index is lost or behind.
+/// Returns the record of a heap from its files, if all of them exist. It serves data sets whose index is lost or
+/// incomplete.
 std::optional<HeapRecord> found_on_disk(const DataFolder& folder, const DataSetFacts& facts, std::size_t heap);
 
 /// The models of BOP's layouts, with symmetries.

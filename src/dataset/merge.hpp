@@ -12,9 +12,7 @@ struct Merged {
   std::size_t scenes = 0, rejected = 0, missing = 0;  ///< missing: heaps that no share has
 };
 
-/// Joins folders of one plan into `out`, which becomes byte for byte the data set of one run. Files are linked where
-/// the file system can do that, else copied. What is there already is kept: killed at any instant, it goes on when
-/// repeated. Throws an input Error for folders of different plans or versions.
+/// What exists already is kept: a run that was killed at any time continues when it is repeated.
 Merged merge_datasets(const std::vector<std::string>& shares, const std::string& out, const std::atomic<bool>* stop);
 
 }  // namespace bin_scenes

@@ -13,9 +13,9 @@ namespace bin_scenes {
 
 struct SceneRecord {
   std::size_t scene = 0;
-  std::string path;        ///< in the data set
-  std::string sha256;      ///< of its files.json, which holds the digests of all its files
-  nlohmann::json summary;  ///< what the report shows: see summary_of()
+  std::string path;        ///< path within the data set
+  std::string sha256;      ///< digest of its files.json, which contains the digests of all its files
+  nlohmann::json summary;  ///< the values that the report shows; see summary_of()
 };
 
 struct RejectedRecord {
@@ -28,7 +28,7 @@ struct HeapRecord {
   std::size_t heap = 0;
   bool accepted = false;   ///< else every attempt was rejected
   double wall_s = 0.0;     ///< negative: not known, since it was found on the disk
-  double cpu_s = 0.0;      ///< of all threads of the worker
+  double cpu_s = 0.0;      ///< processor time of all threads of the worker (s)
   double memory_mb = 0.0;  ///< resident memory of the worker after the heap
   std::map<std::string, double> stages_ms;
   std::vector<SceneRecord> scenes;

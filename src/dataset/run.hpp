@@ -11,10 +11,11 @@
 namespace bin_scenes {
 
 struct RunProgress {
-  std::size_t heaps = 0, heaps_done = 0;               ///< of this run's share; done before included
+  /// Number of heaps of the share of this run, and of those that are done, including earlier runs.
+  std::size_t heaps = 0, heaps_done = 0;
   std::size_t accepted = 0, rejected = 0, failed = 0;  ///< scenes that are there; attempts set apart; heaps given up
   std::size_t not_poured = 0, asked_for = 0;           ///< parts of the heaps that are there; known at the end
-  double scenes_per_hour = 0.0;                        ///< of this run
+  double scenes_per_hour = 0.0;                        ///< rate of this run
   double remaining_s = 0.0;
   std::string phase;  ///< "scenes", "pack"
 };

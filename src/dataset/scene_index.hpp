@@ -19,9 +19,9 @@ struct IndexCounts {
   std::size_t accepted = 0, failed = 0;       ///< heaps
   std::size_t scenes = 0, rejected = 0;       ///< scenes that are there; attempts that were set apart
   std::size_t not_poured = 0, asked_for = 0;  ///< parts of the first scene of each heap
-  double wall_s = 0.0;                        ///< of workers, over all heaps whose time is known
-  double cpu_s = 0.0;                         ///< of workers, over the same heaps
-  std::size_t timed = 0;                      ///< heaps whose time is known
+  double wall_s = 0.0;    ///< wall-clock time of the workers (s), over all heaps whose time is known
+  double cpu_s = 0.0;     ///< processor time of the workers (s), over the same heaps
+  std::size_t timed = 0;  ///< heaps whose time is known
 };
 
 class SceneIndex {
@@ -32,9 +32,10 @@ class SceneIndex {
   SceneIndex(const SceneIndex&) = delete;
   SceneIndex& operator=(const SceneIndex&) = delete;
 
-  void put(const HeapRecord& record);  ///< in one transaction; replaces what was known of the heap
+  /// Stores a record in one transaction, and replaces an earlier one of the same heap.
+  void put(const HeapRecord& record);
   void forget(std::size_t heap);
-  std::set<std::size_t> heaps() const;  ///< those that are done or have failed
+  std::set<std::size_t> heaps() const;  ///< the heaps that are done or have failed
   IndexCounts counts() const;
   /// Heaps that are to be here: those whose number leaves `shard` when divided by `shards`, and those of calls before.
   void add_share(std::size_t shard, std::size_t shards);
@@ -55,7 +56,7 @@ class SceneIndex {
   std::vector<Rejected> rejected() const;  ///< in order
   HeapRecord record(std::size_t heap) const;
 
-  /// Of every statement's result rows, as text.
+  /// Returns the result rows of a statement as text.
   std::vector<std::vector<std::string>> rows(const std::string& sql, const std::vector<std::string>& values = {}) const;
 
  private:

@@ -24,9 +24,7 @@ std::size_t shard_count(const DataSetFacts& facts);
 /// The offset index beside a shard. Throws an input Error if it is missing or damaged.
 nlohmann::ordered_json offsets_of(const DataFolder& folder, std::size_t shard);
 
-/// Packs samples into shards, with an offset index beside each (shard-000000.json: key -> file -> [offset, bytes]),
-/// records in key_to_shard.json where each image is, and removes the samples. What was packed before is kept; killed at
-/// any instant, it goes on from there. Throws Error.
+/// Shards that were packed before are kept: a run that was killed at any time continues from there.
 class ShardPacker {
  public:
   /// @param done  heaps that are made, or given up

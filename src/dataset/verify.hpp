@@ -34,7 +34,7 @@ class Findings {
  private:
   std::mutex mutex_;
   std::vector<Finding> all_;
-  std::map<std::string, std::size_t> checked_;  ///< how often each invariant was tried
+  std::map<std::string, std::size_t> checked_;  ///< number of tests of each invariant
 };
 
 /// Every invariant by name, with what it demands: for `dataset verify --list` and the documentation.

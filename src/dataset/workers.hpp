@@ -40,7 +40,7 @@ class Workers {
     int socket = -1;
     std::optional<std::size_t> heap;
     std::size_t deaths = 0;  ///< on that heap
-    std::string line;        ///< what has arrived of an answer
+    std::string line;        ///< the part of an answer that has arrived
   };
 
   void start(Worker& worker);

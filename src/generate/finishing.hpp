@@ -37,10 +37,10 @@ class Finishing {
   Finishing(const Finishing&) = delete;
   Finishing& operator=(const Finishing&) = delete;
 
-  /// Places count from 0, each comes once. Where pouring is ahead of finishing, or of the caller, waits and hands on:
-  /// images of a few scenes fit into memory, not those of all.
+  /// Adds a poured scene. If pouring is faster than finishing, or than the caller, it waits and hands scenes on,
+  /// because memory holds the images of a few scenes but not of all.
   void add(std::size_t place, Scene&& scene);
-  void hand_on_finished();  ///< those that are ready and whose turn it is; never waits
+  void hand_on_finished();  ///< hands on the scenes that are finished and next in order; never waits
   void wait();              ///< for all, and hands on each as soon as it is finished; throws what `finish` threw
 
  private:
@@ -54,7 +54,7 @@ class Finishing {
 
   std::function<void(Result&)> finish_;
   std::function<void(Result&&)> hand_on_;
-  std::map<std::size_t, std::shared_ptr<Entry>> entries_;  ///< by place
+  std::map<std::size_t, std::shared_ptr<Entry>> entries_;  ///< by place in the order of scenes
   std::size_t next_ = 0;                                   ///< place whose turn it is
   std::atomic<std::size_t> waiting_{0};                    ///< parts of scenes not finished yet
   std::mutex mutex_;

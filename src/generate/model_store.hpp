@@ -12,8 +12,8 @@ namespace bin_scenes {
 
 class ModelStore {
  public:
-  /// One model a part line, equal ones shared; sizes checked against the bin. Of the models that this request does not
-  /// use, the last few are kept, for requests that take turns; memory does not grow with the number of requests.
+  /// Keeps the last few models that the present request does not use, for requests that alternate. Memory does not grow
+  /// with the number of requests.
   void load(const Request& request);
 
   const LoadedRequest& loaded() const { return loaded_; }  ///< the last one

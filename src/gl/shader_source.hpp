@@ -11,7 +11,7 @@ namespace bin_scenes::gl {
 
 struct ShaderSource {
   std::string text;                ///< #version, defines, includes resolved, #line marks
-  std::vector<std::string> files;  ///< by the source number of #line
+  std::vector<std::string> files;  ///< files, by the source number of #line
 };
 
 /// With BIN_SCENES_SHUFFLE=1 in the environment, for tests: invocations and groups have other numbers than they would,

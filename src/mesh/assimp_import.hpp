@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// What assimp makes of a file, or its complaint.
+/// The mesh that assimp reads from a file, or its error message.
 struct Import {
   std::string complaint;  ///< empty if it was read
   Mesh mesh;

@@ -6,12 +6,12 @@
 
 namespace bin_scenes::cad {
 
-/// What a contained process hands back.
+/// The result that a contained process returns.
 struct Solids {
   std::string complaint, remedy;   ///< empty if the file was read
-  Mesh mesh;                       ///< in the file's own unit
+  Mesh mesh;                       ///< in the unit of the file
   std::uint64_t count = 0;         ///< solids in the file
-  double metres_per_unit = 0.001;  ///< as the file states it
+  double metres_per_unit = 0.001;  ///< the factor that the file states
   double error = 0.0;              ///< largest distance of a triangle from the true surface, in the file's own unit
   std::vector<Flag> flags;
 };

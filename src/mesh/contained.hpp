@@ -10,7 +10,7 @@ namespace bin_scenes {
 
 struct Contained {
   bool finished = false;
-  std::string output;   ///< what the function returned
+  std::string output;   ///< the bytes that the function returned
   std::string failure;  ///< if not finished: "crashed (Segmentation fault)", "did not finish within 60 s"
 };
 

@@ -15,9 +15,9 @@ struct MeshFile {
   Mesh mesh;
   std::string format;  ///< "STL", "OBJ", "PLY", "DAE", "OFF", "STEP", "IGES"
   std::size_t meshes = 0;
-  std::optional<double> metres_per_unit;  ///< where the file states it
+  std::optional<double> metres_per_unit;  ///< the factor that the file states; none if it states none
   double tessellation_error = 0.0;        ///< STEP, IGES: largest distance of a triangle from the true surface
-  std::vector<Flag> flags;                ///< what had to be repaired in memory, what was left out
+  std::vector<Flag> flags;                ///< what was repaired in memory, and what was left out
 };
 
 /// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where

@@ -9,7 +9,7 @@ namespace bin_scenes {
 
 /// "STL", "OBJ", "PLY", "DAE", "OFF", "STEP", "IGES", or empty.
 std::string format_of_name(const std::string& path);
-/// The same by content, or empty; OBJ has no mark of its own.
+/// Returns the format by the contents of a file, or "". OBJ files cannot be recognised by their contents.
 std::string format_of_content(const std::string& bytes);
 /// Texts in UTF-16 (with byte order mark), which assimp's readers take for noise, as UTF-8.
 std::optional<std::string> utf8_from_utf16(const std::string& bytes);

@@ -25,9 +25,10 @@ struct BopImage {
   std::vector<std::uint16_t> counts;  ///< depth, in counts of depth_scale
   std::vector<std::uint8_t> gray;
   const RangeImage* seen = nullptr;  ///< for its SNR, true labels and normals; has to outlive this
-  std::vector<int> ids;              ///< of the parts, by entry
+  std::vector<int> ids;              ///< ids of the parts, by entry
   std::vector<MaskBox> visible;      ///< by entry
-  std::vector<MaskBox> whole;        ///< by entry; fewer than `ids`: not known
+  std::vector<MaskBox>
+      whole;  ///< boxes of the silhouettes, by entry; if there are fewer than `ids`, the others are not known
 };
 
 std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,

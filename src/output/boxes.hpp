@@ -16,13 +16,14 @@ struct PixelBox {
   void extend(int x, int y);
   bool empty() const { return right < left; }
   std::array<int, 4> xywh() const;  ///< x, y, width, height; -1 for nothing
-  /// As scene_gt_info.json of BOP has it: x, y, and the last pixel less the first.
+  /// Returns the box as BOP's scene_gt_info.json defines it: x, y, and the last pixel minus the first one.
   std::array<int, 4> first_to_last() const { return {left, top, right - left, bottom - top}; }
 };
 
-/// By part id, of the pixels that truly show it.
+/// Returns, by part id, the boxes of the pixels that truly show the part.
 std::vector<PixelBox> visible_boxes(const RangeImage& image, std::size_t parts);
-/// Of the whole silhouette, hidden or outside the image included: the projected vertices.
+/// Returns the box of the whole silhouette, including what is hidden or outside the image: that of the projected
+/// vertices.
 PixelBox projected_box(const Mesh& mesh, const Pose& model_in_camera, const Sensor& sensor);
 
 MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box);

@@ -23,7 +23,7 @@ struct McapSchema {
 /// Messages of one topic and one type.
 struct McapChannel {
   std::string topic;
-  std::string encoding;  ///< of its messages
+  std::string encoding;  ///< encoding of the messages
   McapSchema schema;
   McapTexts metadata;
 };
@@ -56,11 +56,11 @@ class McapFile {
   std::string summary_offsets(std::uint64_t start, std::string& summary) const;
 
   WholeFile file_;
-  std::uint32_t crc_ = 0;  ///< of the bytes put so far
+  std::uint32_t crc_ = 0;  ///< checksum of the bytes written so far
   std::string chunk_;      ///< records of the open chunk
-  /// Of the open chunk: time and place of each message.
+  /// Time and position of each message of the open chunk.
   std::map<ChannelId, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index_;
-  Span chunk_span_, span_;  ///< of the open chunk; of all
+  Span chunk_span_, span_;  ///< first and last time of the open chunk, and of all messages
 
   std::vector<McapSchema> schemas_;  ///< [id - 1]
   std::map<ChannelId, std::uint64_t> counts_;

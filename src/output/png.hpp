@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 /// Row-major samples, `channels` (1 = grey, 3 = RGB) a pixel. Throws an environment Error.
 Bytes png8(int width, int height, int channels, const std::vector<std::uint8_t>& samples);
 Bytes png16(int width, int height, const std::vector<std::uint16_t>& samples, int channels = 1);
-/// Of as many bits as the picture has.
+/// Writes a picture with its number of bits.
 Bytes png_of(int width, int height, const Picture& picture);
 /// Its upper eight bits.
 std::vector<std::uint8_t> in_bytes(const Picture& picture);

@@ -14,7 +14,7 @@ struct LoadedImage {
 
 /// Grey and RGB of 8 or 16 bits; colours of a palette as RGB. Throws an input Error that names the path.
 LoadedImage load_png(const std::string& path);
-/// The same of a file's bytes; `where` names them in errors.
+/// Decodes the bytes of a file; `where` names the file in error messages.
 LoadedImage png_from(const std::string& bytes, const std::string& where);
 
 }  // namespace bin_scenes

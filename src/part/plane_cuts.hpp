@@ -24,16 +24,13 @@ std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double to
 
 /// The data of the solid that the cuts need.
 struct SolidMeasure {
-  /// How far a convex hull sticks out of the solid (m), and where it does so most.
+  /// The largest distance (m) by which a convex hull extends beyond the solid, and the point with this distance.
   std::function<std::pair<double, Vec3>(const Mesh& hull)> protrusion;
   std::function<bool(const Vec3& point)> inside;
 };
 
-/// Corners of the pieces, each a point set for a hull. The piece whose hull sticks out most is cut next, until none
-/// sticks out by more than `limit` (m) or there are `max_pieces`. Of the planes through concave edges of the piece and
-/// across its axes the one is taken after which the hulls of the two sides enclose least. Exact for unions of convex
-/// solids that meet at concave edges; the idea is that of approximate convex decomposition by cutting (Lien & Amato
-/// 2007, "Approximate convex decomposition of polyhedra"; Wei et al. 2022, CoACD).
+/// Cuts a piece by the best plane among those through its concave edges and across its axes: the one after which the
+/// hulls of both sides enclose the smallest volume.
 std::vector<std::vector<Vec3>> plane_cut_pieces(const Mesh& mesh, const SolidMeasure& measure, double limit,
                                                 int max_pieces);
 

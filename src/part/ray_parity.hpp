@@ -12,7 +12,7 @@ namespace bin_scenes {
 /// in one of 2^64 cases.
 bool closed(const Mesh& mesh);
 
-/// Of all rays: along no edge or face that anybody would draw.
+/// The direction of all rays. It is along no edge or face that a designer would draw.
 inline const Vec3 ray_direction{0.53812371, 0.31415927, 0.78214293};
 
 /// What the triangle (a, a + ab, a + ac) adds to the winding number of p, by its ray: 1 where the ray leaves, -1 where

@@ -34,8 +34,8 @@ bool any_leaf(const std::vector<MeshQuery::Node>& nodes, const Skip& skip, const
   return false;
 }
 
-/// The same for a mesh: `use(triangle)` for the triangles of all leaves whose boxes, and those above them, are not
-/// `apart(box)`.
+/// Traverses the tree of a mesh: calls `use(triangle)` for the triangles of all leaves that are not `apart(box)` and
+/// whose parent nodes are not.
 template <class Apart, class Use>
 bool any_near(const MeshQuery& mesh, const Apart& apart, const Use& use) {
   const std::vector<MeshQuery::Node>& nodes = mesh.nodes();

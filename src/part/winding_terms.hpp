@@ -53,7 +53,7 @@ inline void add_cubic(std::array<double, 10>& c, const Vec3& n, const Mat3& m) {
   c[9] += 2.0 * (n.x() * m(1, 2) + n.y() * m(0, 2) + n.z() * m(0, 1));
 }
 
-/// Of the triangles corners[begin, end).
+/// The terms of the triangles corners[begin, end).
 inline Moments moments_of(const std::vector<Corner>& corners, std::size_t begin, std::size_t end) {
   Moments m;
   double total = 0.0;

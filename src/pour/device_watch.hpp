@@ -34,8 +34,8 @@ class DeviceWatch {
   void note_states() { states_ = true; }
 
   bool observed() const { return observed_; }   ///< since restart()
-  bool is_current() const { return current_; }  ///< at the end of the steps that ended last
-  bool has_states() const { return states_; }   ///< of the steps that ended last
+  bool is_current() const { return current_; }  ///< whether the observation belongs to the end of the last steps
+  bool has_states() const { return states_; }   ///< whether the states belong to the end of the last steps
   const WatchSeen& seen() const { return watch_->seen(world_); }
   /// Bodies that moved within the last `age` seconds, one of those asked for.
   std::size_t moved(double age) const;
@@ -60,7 +60,7 @@ class DeviceWatch {
   Ages ages_{};
   std::uint32_t rested_ = 0;  ///< bodies that moved in or before this observation have rested
   bool rest_anew_ = true, energy_anew_ = true, asked_ = false, observed_ = false, current_ = false, states_ = true;
-  WatchedEnergy earlier_;  ///< of worlds before, with times
+  WatchedEnergy earlier_;  ///< gains of earlier worlds of the heap, with their times
 };
 
 }  // namespace bin_scenes

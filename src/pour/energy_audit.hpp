@@ -56,7 +56,7 @@ class WorldEnergy {
     double now = 0.0, least = 0.0;  ///< J: the latest, and when the sum was least
     double swiftest = 0.0;          ///< J: most kinetic energy since then
     double unit = 0.0;
-    bool in = false;  ///< in this observation
+    bool in = false;  ///< whether the body is present in this observation
   };
   std::vector<Body> bodies_;
   bool begins_ = false;
@@ -81,7 +81,7 @@ class EnergyAudit {
   struct Body {
     bool in = false, fixed = false;
     double kinetic = 0.0, potential = 0.0;  ///< J, at the last observation
-    Vec3 center = Vec3::Zero();             ///< of mass, at the last observation
+    Vec3 center = Vec3::Zero();             ///< centre of mass at the last observation (m)
     double speed = 0.0;                     ///< m/s
     double swift = 0.0;                     ///< m/s, of its fastest point
   };
@@ -97,7 +97,7 @@ class EnergyAudit {
   DisjointSets groups(const std::vector<Reach>& reaches) const;
   void compare_gains(DisjointSets& group, const std::vector<Reach>& reaches, double time);
   void compare_speeds(DisjointSets& group, const std::vector<Reach>& reaches, double seconds, double time);
-  /// What a part must be as fast as to be examined: its energy is then that of a flagged gain (m/s).
+  /// The speed (m/s) from which a part is examined: its energy is then that of a gain that would be flagged.
   double least_speed(std::size_t body) const;
 
   const WorldDef& world_;

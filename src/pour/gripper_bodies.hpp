@@ -11,7 +11,7 @@ namespace bin_scenes {
 
 struct GripperBody {
   PartModelPtr model;
-  Pose pose;  ///< of the model in the gripper's frame; fingers: at width 0
+  Pose pose;  ///< from the model to the gripper frame; for fingers, at an opening of 0
 };
 
 /// Two fingers, that at -x first, or a ring; then the palm.

@@ -43,8 +43,7 @@ class HeapCore final : private HeapView {
   const std::vector<BodyState>& states();
   /// s until the request's set time; infinity without one.
   double time_left() const;
-  /// The next `seconds` are about to be simulated, and the heap is observed at their end if a slice or its set time
-  /// ends then. Where the solver's device observes worlds, it is asked to.
+  /// If the device of the solver observes worlds, requests an observation.
   void ask(double seconds, bool slice_ends);
   void advanced(double seconds);
   /// After advanced(): whether the heap cannot be advanced further by what its device has seen of it. The states that
@@ -71,7 +70,7 @@ class HeapCore final : private HeapView {
 
  private:
   enum class Place { waiting, in, escaped, no_room, removed };
-  enum class Course { ahead, under_way, over };  ///< of the given motions
+  enum class Course { ahead, under_way, over };  ///< state of the prescribed motions
 
   /// `lifted`: bodies that the world is to have as heavy as if a hand held them.
   void note_worst();
@@ -83,9 +82,9 @@ class HeapCore final : private HeapView {
   void let_go();                         ///< lifted bodies have their own masses again
   bool is_kept(std::size_t body) const { return !kept_.empty() && kept_[body]; }
   bool is_kept(const ContactForce& force) const;  ///< of all that it acts on
-  void release_kept();                            ///< those that have woken
+  void release_kept();                            ///< forgets the forces of bodies that have woken
   void wake_kept_beside(std::size_t body);        ///< for one that is taken out
-  std::vector<ContactForce> forces() const;       ///< of the last step, or when bodies fell asleep
+  std::vector<ContactForce> forces() const;       ///< forces of the last step, or from when the bodies fell asleep
   void begin(Stage stage);
   void set_solver_phase();
   void insert(std::size_t body, const BodyState& state);
@@ -99,12 +98,12 @@ class HeapCore final : private HeapView {
   double motion_seconds() const;
   void put_on_path(double t, double dt, bool ends);
   void begin_motion();
-  bool end_motion();  ///< if it is over; what moved settles again
+  bool end_motion();  ///< ends a motion that is over, after which the heap settles again
   PartState state_of(std::size_t body) const;
   bool outside(const Vec3& center) const;
   WatchRules rules() const;
-  void take_observation();  ///< of the device
-  void begin_watch();       ///< of a new world by the device
+  void take_observation();  ///< reads the observation of the device
+  void begin_watch();       ///< starts the observation of a new world by the device
   void leave_world();       ///< removes it
   void restart_rest();
   void restart_watch();
@@ -137,7 +136,7 @@ class HeapCore final : private HeapView {
   /// Steps of earlier worlds since the clock was started, less those of this world before that.
   std::uint64_t earlier_steps_ = 0;
   bool fresh_ = false, walls_raised_ = false;
-  bool poured_ = false;  ///< in the last slice
+  bool poured_ = false;  ///< whether parts entered in the last slice of time
   bool lifts_ = false;   ///< the world has lifted bodies
   /// Bodies that sleep since the world was remade. They keep their states, which a solver returns but for rounding, and
   /// the forces between them, of which it knows nothing.
@@ -150,9 +149,9 @@ class HeapCore final : private HeapView {
   std::vector<BodyState> states_;
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;   ///< bodies that have not entered, next one first
-  std::optional<DeviceWatch> device_;  ///< in place of the next two, where the solver has a WorldWatch
+  std::optional<DeviceWatch> device_;  ///< takes the place of the next two if the solver has a WorldWatch
   RestWatch rest_;
-  std::optional<EnergyAudit> audit_;  ///< of this settle
+  std::optional<EnergyAudit> audit_;  ///< audit of this settle()
   WorstReport::Penetration deepest_;  ///< likewise
   std::uint64_t unresolved_impacts_ = 0;
 };

@@ -10,8 +10,7 @@
 
 namespace bin_scenes {
 
-/// What all scenes of a request share. Bodies are numbered by part line, so that lines added at the end leave the
-/// numbers of those before as they are.
+/// The data that all scenes of a request share.
 struct PourPlan {
   explicit PourPlan(const LoadedRequest& loaded);
 
@@ -21,9 +20,9 @@ struct PourPlan {
   Cover bin_cover;                            ///< mesh bin only
   double largest_part;                        ///< m: diagonal
   Aabb bin_bounds;                            ///< mesh bin only
-  Opening opening;                            ///< where parts enter; upper.z is the rim
+  Opening opening;                            ///< the box in which parts enter; upper.z is the height of the rim
   double entry_height = 0.0;                  ///< walls while parts enter (box bin)
-  std::vector<std::size_t> line_of, copy_of;  ///< by body: part line, number within the line
+  std::vector<std::size_t> line_of, copy_of;  ///< by body: index of its part line, and number within the line
 };
 
 }  // namespace bin_scenes

@@ -7,7 +7,7 @@
 
 namespace bin_scenes {
 
-/// Where the heaps come from and go to, by number from 0 on; both are called from the calling thread.
+/// The functions that provide heaps and receive them, by number from 0 on. Both are called from the calling thread.
 struct HeapSource {
   std::size_t count = 0;
   std::function<HeapCore&(std::size_t number)> next;  ///< asked for in order, when there is room for one more

@@ -19,7 +19,7 @@ enum class Stage { pour, settle, press, probe, verify, recheck, hold, repair, do
 struct StageRow {
   Stage stage;
   const char* name;
-  Phase phase;  ///< of the solver
+  Phase phase;  ///< settings of the solver in this stage
 };
 
 namespace phases {
@@ -69,7 +69,7 @@ class HeapView {
   virtual bool all_in() const = 0;      ///< no part waits to enter
   virtual bool all_slow() const = 0;    ///< no part moves as fast as a falling one
   virtual bool all_rest() const = 0;    ///< all have been still for Pour::rest_window
-  virtual bool all_asleep() const = 0;  ///< in the solver
+  virtual bool all_asleep() const = 0;  ///< whether the solver lets all bodies sleep
   virtual std::size_t count() const = 0;
   virtual std::size_t still_for_less_than(double seconds) const = 0;  ///< parts that moved within the last `seconds`
   virtual double rest_window() const = 0;                             ///< s
@@ -101,7 +101,7 @@ class Settling {
   double checked_s() const { return checked_s_; }
   /// Whether parts that moved in the last check were not checked again.
   bool gave_up() const { return gave_up_; }
-  /// How far it has come: "settled", "pressed", "probed", or "none" before it is done.
+  /// Returns how far the heap has been settled: "settled", "pressed", "probed", or "none" before settling is done.
   const char* finish() const;
 
  private:

@@ -26,7 +26,7 @@ class HeapHandle {
   std::shared_ptr<SceneData> scene(const Wanted& wanted, const Poll& poll);
 
  private:
-  /// `job` with the heap, in the session's thread.
+  /// Runs `job` with the heap in the thread of the session.
   void run(const char* caller, const std::function<void(Session&, Heap&)>& job, const Poll& poll);
 
   std::shared_ptr<Session> session_;

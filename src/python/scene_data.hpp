@@ -29,7 +29,7 @@ class ImageData {
   std::vector<std::array<float, 3>> points_, normals_;
 };
 
-/// What is made of a scene beside its poses.
+/// What is made of a scene in addition to its poses.
 struct Wanted {
   bool images = true, grasps = false;
 };

@@ -65,7 +65,7 @@ class Session {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::unique_ptr<Generator> generator_;
-  std::map<const Heap*, std::unique_ptr<Heap>> heaps_;  ///< of the session's thread
+  std::map<const Heap*, std::unique_ptr<Heap>> heaps_;  ///< only the thread of the session uses them
   std::vector<const Heap*> dropped_;
   Job job_;
   std::size_t started_ = 0, ended_ = 0;  ///< number of the last job; they differ while it runs

@@ -28,7 +28,7 @@ class ConvexCell {
   const std::vector<Vec3>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<int>& loops() const { return loops_; }  ///< vertex indices of all faces
-  /// Those of faces for which `wanted` holds something else than 0, and maybe more.
+  /// The vertices of faces for which `wanted` is not 0, and possibly further ones.
   std::vector<Edge> edges(const std::vector<char>& wanted) const;
   /// Vertex with the smallest coordinate along `direction`.
   const Vec3& lowest(const Vec3& direction) const;
@@ -44,11 +44,11 @@ class ConvexCell {
   std::vector<int> loops_;
 };
 
-/// How two convex bodies come apart along the shortest translation.
+/// The shortest translation that separates two convex bodies.
 struct Separation {
   double depth = 0.0;             ///< m; <= 0: they are apart already
   Vec3 direction = Vec3::Zero();  ///< unit; moves b away from a
-  Vec3 point = Vec3::Zero();      ///< where they touch last, b still unmoved
+  Vec3 point = Vec3::Zero();      ///< the point where the bodies touch last, before b is moved
 };
 
 /// Penetration depth of two convex cells: the nearest face of their Minkowski difference, found among the faces of

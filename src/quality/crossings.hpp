@@ -9,13 +9,12 @@ namespace bin_scenes {
 
 /// The common segment of two triangles.
 struct Crossing {
-  Vec3 point;                                     ///< in the centre of it
+  Vec3 point;                                     ///< centre of the crossing
   Aabb box;                                       ///< around it
-  std::array<std::size_t, 2> triangles = {0, 0};  ///< of a and b
+  std::array<std::size_t, 2> triangles = {0, 0};  ///< one triangle of a and one of b
 };
 
-/// None if the triangles are apart, or coplanar (their neighbours then meet instead). Lengths up to `tolerance`
-/// count as zero: triangles that only touch cross in a point or a segment.
+/// Returns none if the triangles do not intersect, or are coplanar; their neighbours intersect then instead.
 std::optional<Crossing> crossing(const Facet& s, const Facet& t, double tolerance);
 
 /// Crossings of all triangles of a with all triangles of b, in the frame of a; `b_in_a` takes b's frame to a's.

@@ -53,7 +53,7 @@ class PlacedLeaf {
  public:
   PlacedLeaf(const MeshQuery& query, const Pose& pose) : query_(query), pose_(pose) {}
 
-  /// Of a node that is a leaf; the first node(leaf).count count.
+  /// Returns the triangles of a leaf; the first node(leaf).count of them are valid.
   const std::array<Facet, MeshQuery::leaf_size>& of(std::uint32_t leaf) {
     if (known_ && leaf == leaf_) return facets_;
     known_ = true;
@@ -88,9 +88,7 @@ class BoxMotion {
   Vec3 shift_;
 };
 
-/// Depth-first walk over pairs of nodes. `bound(a box, b box)` (each in its own mesh's frame) is a number that no
-/// pair of triangles below can undercut; a pair is entered while it is < limit(). Of two children the one with the
-/// smaller bound comes first. `leaf` gets pairs of triangles, moved by the poses.
+/// Of two children, the one with the smaller bound is visited first.
 template <class Bound, class Limit, class Leaf>
 void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, Bound&& bound, Limit&& limit,
           Leaf&& leaf) {
@@ -164,7 +162,7 @@ class NodePair {
   }
 
  private:
-  static constexpr float rounding = 2e-6f;  ///< of some ten operations on lengths
+  static constexpr float rounding = 2e-6f;  ///< relative rounding error of about ten operations on lengths
   static double reach(const Aabb& box) { return box.center().norm() + box.diagonal(); }
   static Eigen::Array4f sum(const std::array<Eigen::Array4f, 3>& columns, const Eigen::Array4f& v) {
     return columns[0] * v[0] + columns[1] * v[1] + columns[2] * v[2];

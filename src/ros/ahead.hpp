@@ -36,7 +36,7 @@ class Ahead {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<MadeScene> ready_;
-  std::exception_ptr failed_;  ///< of the scene after those that are ready
+  std::exception_ptr failed_;  ///< error of the scene after those that are ready
   bool following_ = false, stop_ = false;
   Request request_;
   std::size_t next_ = 0;  ///< index to make

@@ -18,7 +18,7 @@
 
 namespace bin_scenes {
 
-/// What the serializers that ROS 1 generates write to: they hand over one field after another.
+/// The target to which the serialisers that ROS 1 generates write one field after another.
 class CdrStream {
  public:
   explicit CdrStream(eprosima::fastcdr::Cdr& cdr) : cdr_(cdr) {}

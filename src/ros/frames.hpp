@@ -15,8 +15,8 @@ namespace bin_scenes {
 struct Frames {
   std::string bin = "bin";       ///< frame of the bin: centre of the floor's top, z up
   std::string parent = "world";  ///< frame the bin stands in; empty: the bin frame is the root
-  Pose bin_pose;                 ///< of the bin frame in `parent`
-  std::string prefix;            ///< of the frames of parts and sensors, "left/": keeps several bins apart
+  Pose bin_pose;                 ///< from the bin frame to `parent`
+  std::string prefix;  ///< prefix of the frames of parts and sensors, such as "left/", which distinguishes several bins
 };
 
 std::string part_frame(int id, const std::string& prefix = "");  ///< "part_0007"

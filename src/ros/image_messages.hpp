@@ -13,7 +13,7 @@
 
 namespace bin_scenes {
 
-/// What one sensor publishes of one scene.
+/// The messages that one sensor publishes for one scene.
 struct ImageMessages {
   sensor_msgs::PointCloud2 points;
   sensor_msgs::Image depth;
@@ -28,8 +28,8 @@ ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, co
 /// Organised cloud in the optical frame: fields x y z normal_x normal_y normal_z intensity snr (float32) label
 /// (uint32); NaN where nothing was seen (REP 117), hence not dense.
 sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::Header& header);
-/// The same with a field `rgb` (float32 that holds 0x00rrggbb, as PCL and RViz read it): each part in the colour of its
-/// marker, the bin in grey.
+/// The cloud with an additional field `rgb` (float32 that contains 0x00rrggbb, as PCL and RViz read it): each part has
+/// the colour of its marker, and the bin is grey.
 sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const std_msgs::Header& header);
 /// 32FC1, metres along the optical axis, NaN where nothing is valid (REP 118). Of a lens that distorts, rectified: each
 /// pixel has the depth of the nearest one of the image as taken, moved on its surface.

@@ -24,7 +24,7 @@
 
 namespace bin_scenes {
 
-/// How a job ended, as action and services answer it.
+/// The outcome of a job, as action and services report it.
 struct Outcome {
   bool success = false;
   std::int32_t error_code = bin_scenes_msgs::ErrorCode::NONE;

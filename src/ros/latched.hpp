@@ -1,4 +1,4 @@
-/// Publishes on a latched topic in such a way that no subscriber keeps an older message.
+/// Publishes on a latched topic so that no subscriber keeps an older message.
 #pragma once
 
 #include <ros/publisher.h>

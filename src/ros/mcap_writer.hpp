@@ -12,7 +12,7 @@
 
 namespace bin_scenes {
 
-/// What ROS 1 knows of a type of messages.
+/// The name, definition and checksum by which ROS 1 identifies a type of messages.
 struct RosType {
   std::string name, definition;
 };
@@ -21,7 +21,7 @@ RosType ros_type_of() {
   return {ros::message_traits::datatype<Message>(), ros::message_traits::definition<Message>()};
 }
 
-/// `type` in a file of that profile. `sender`: name of the node.
+/// Returns the name of `type` in a file of that profile.
 McapChannel mcap_channel(McapProfile profile, const std::string& topic, const RosType& type, Latch latch,
                          const std::string& sender);
 /// States for rosbag2 that qualities of service are written as Humble does.
@@ -63,8 +63,7 @@ class McapRecording {
   std::map<std::string, McapFile::ChannelId> channels_;
 };
 
-/// As write_bag(): the same topics in the same order. Attached are scene.json, and as request.yaml what makes this
-/// scene again.
+/// Writes the same topics in the same order as write_bag().
 void write_mcap(const std::string& path, McapProfile profile, const Scene& scene, const LoadedRequest& loaded,
                 const std::vector<RangeImage>& images, const ros::Time& stamp, const std::string& name_space = "");
 

@@ -25,7 +25,7 @@ inline std::vector<std::string> field_names(const std::string& definition) {
   return names;
 }
 
-/// What ROS serialises a message with, as a visitor of its fields.
+/// A visitor of the fields of a message, in place of the stream with which ROS serialises it.
 template <class Visit>
 struct FieldStream {
   const std::vector<std::string>& names;

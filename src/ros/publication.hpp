@@ -37,8 +37,8 @@ class Publication {
   struct Counts {
     std::size_t scenes = 0;           ///< shown, since the start
     std::size_t renderings = 0;       ///< images of scenes that were shown already, since the start
-    std::size_t render_failures = 0;  ///< of the scene shown
-    std::size_t sensors = 0;          ///< of the scene shown
+    std::size_t render_failures = 0;  ///< number of images of the present scene that could not be made
+    std::size_t sensors = 0;          ///< number of sensors of the present scene
   };
   Counts counts() const;
 

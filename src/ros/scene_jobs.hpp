@@ -18,7 +18,8 @@
 
 namespace bin_scenes {
 
-/// What may change while the node runs (dynamic_reconfigure), beside the rates; empty: as the request says.
+/// Settings that may change while the node runs (dynamic_reconfigure), in addition to the rates. Empty: as the request
+/// states.
 struct LiveSettings {
   std::string finish;  ///< pour.finish
   std::string solver;  ///< solver.type
@@ -55,13 +56,13 @@ class SceneJobs {
 
   /// For diagnostics.
   struct Status {
-    std::size_t jobs = 0;                                            ///< that wait or run
+    std::size_t jobs = 0;                                            ///< number of jobs that wait or run
     std::string running;                                             ///< name of the job, ""
     double running_s = 0.0;                                          ///< s since it began
     std::size_t made = 0, failed = 0, cancelled = 0, set_apart = 0;  ///< jobs that ended, since the start
     std::size_t set_apart_in_a_row = 0;
     std::size_t ahead = 0;                ///< scenes that wait for next_scene
-    std::string device, solver, verdict;  ///< of the last scene
+    std::string device, solver, verdict;  ///< of the last scene: device, solver, and whether it was accepted
     bool accepted = true;
   };
   Status status() const;
@@ -78,10 +79,10 @@ class SceneJobs {
 
   Publication& publication_;
   const Settings settings_;
-  mutable std::mutex mutex_;  ///< of live_ and status_
+  mutable std::mutex mutex_;  ///< protects live_ and status_
   LiveSettings live_;
   Status status_;
-  std::unique_ptr<SceneMaker> maker_;  ///< of the thread of the jobs
+  std::unique_ptr<SceneMaker> maker_;  ///< only the thread of the jobs uses it
   std::unique_ptr<Ahead> ahead_;
   JobQueue queue_;  ///< last: its thread uses all of the above
 };

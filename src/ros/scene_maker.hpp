@@ -11,13 +11,13 @@ namespace bin_scenes {
 /// A scene, with all that is needed to show it.
 struct MadeScene {
   Scene scene;
-  LoadedRequest loaded;            ///< with what was added, and without models of parts once it is kept
+  LoadedRequest loaded;  ///< the request with the parts that were added; without the models of parts once it is stored
   std::vector<RangeImage> images;  ///< one a sensor; RangeImage() until somebody subscribes (Publication)
-  Request asked;                   ///< what was poured first: next_scene follows it, whatever was added since
-  std::shared_ptr<Heap> heap;      ///< that it is a snapshot of; null: the bin was emptied
+  Request asked;               ///< the request that was poured first; next_scene follows it, whatever was added since
+  std::shared_ptr<Heap> heap;  ///< the heap of which it is a snapshot; null: the bin was emptied
 };
 
-/// What parts do before they leave.
+/// How parts are moved before they are removed.
 struct Lift {
   Vec3 direction = Vec3::UnitZ();  ///< bin frame, any length
   double distance = 0.0;           ///< m; 0: they vanish where they lie
@@ -56,7 +56,7 @@ class SceneMaker {
   Grasper grasper_;
   std::shared_ptr<Heap> heap_;
   bool has_scene_ = false;
-  LoadedRequest loaded_;  ///< of the scene that is kept
+  LoadedRequest loaded_;  ///< the request of the stored scene
   Request asked_;         ///< likewise: MadeScene::asked
   Scene last_;            ///< without parts: seed, index, sensors
 };

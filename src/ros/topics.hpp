@@ -12,7 +12,7 @@ namespace bin_scenes {
 namespace topic {
 constexpr char scene[] = "scene";
 constexpr char markers[] = "markers";
-constexpr char contacts[] = "contacts";  ///< of a trace
+constexpr char contacts[] = "contacts";  ///< markers of the contacts of a trace
 constexpr char points[] = "points";
 constexpr char depth[] = "depth/image_rect";
 constexpr char camera_info[] = "depth/camera_info";

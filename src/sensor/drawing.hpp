@@ -10,9 +10,8 @@
 
 namespace bin_scenes {
 
-/// None where rays have to see: lines do not stay straight, or a mesh reaches through the plane of the lens, or a part
-/// lies partly out of range and its silhouette is asked for.
-/// @param alone  set to the silhouettes by index into Scene::parts; nullptr: nobody asks
+/// Returns none if rays must be cast instead: if lines do not stay straight, if a mesh reaches through the plane of the
+/// lens, or if a part is partly out of range and its silhouette is requested.
 std::optional<View> drawn(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far,
                           std::vector<Silhouette>* alone);
 

@@ -12,8 +12,8 @@ namespace bin_scenes {
 /// front. The fronts cover whatever the mesh covers.
 bool shows_fronts_only(const Mesh& mesh);
 
-/// Of each triangle: whether all of the mesh lies behind its plane, so that the mesh does not occlude it. Of meshes of
-/// many corners it may say no where it is so.
+/// Returns for each triangle whether the whole mesh is behind its plane, so that the mesh does not occlude it. For
+/// meshes with many corners, the result may be false although this is the case.
 std::vector<char> outermost_triangles(const Mesh& mesh);
 
 }  // namespace bin_scenes

@@ -33,13 +33,15 @@ struct SmoothNormals {
 
 /// A mesh and its search tree.
 struct MeshTree {
-  PartModelPtr owner;  // none: `own` is the mesh
+  /// Keeps the mesh alive; null: `own` is the mesh.
+  PartModelPtr owner;
   Mesh own;
   RTCScene embree = nullptr;
-  std::vector<Scenery::Plane> planes;  // of each triangle
-  std::vector<char> outermost;         // whether no corner of the mesh lies before it
+  /// Plane of each triangle.
+  std::vector<Scenery::Plane> planes;
+  std::vector<char> outermost;  // whether the whole mesh is behind the plane
   bool closed = false;
-  /// Of each triangle; made when they are asked for first.
+  /// Vertex normals of each triangle, made on first use.
   const std::vector<SmoothNormals>& smooth_normals() const;
 
   const Mesh& mesh() const { return owner ? owner->mesh() : own; }

@@ -17,11 +17,13 @@ namespace bin_scenes {
 
 constexpr double mm_per_metre = 1e3;
 
-/// What the labels of a part in an image deviate by. None: not stated by the data set, or too little of it is seen.
+/// The deviations of the labels of a part in an image. A value is none if the data set does not state it, or if too
+/// little of the part is visible.
 struct LabelFigures {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< px, centre of the model's silhouette
-  std::optional<double> iou;                     ///< of mask and silhouette, see tolerant_iou()
-  std::optional<double> iou_visible;     ///< of mask_visib and what is visible by rays, or by bop_toolkit's rule
+  std::optional<double> iou;                     ///< intersection over union of mask and silhouette, see tolerant_iou()
+  std::optional<double> iou_visible;     ///< intersection over union of mask_visib and the visible region, which is
+                                         ///< determined by rays or by bop_toolkit's rule
   std::optional<Eigen::Vector2d> shift;  ///< px, of the mask against the silhouette: x right, y down
   std::optional<double> depth;           ///< mm, median of measured less model's depth
   double depth_spread = 0.0;             ///< mm, robust standard deviation of the pixels of `depth`
@@ -37,11 +39,11 @@ struct LabelledImage {
   int width = 0, height = 0;
   std::vector<LabelFigures> parts;  ///< by entry
   std::vector<std::string> faults;  ///< missing files
-  CameraError camera;               ///< of the stated camera, that of the whole set included
+  CameraError camera;               ///< error of the stated camera, including that of the whole set
   double depth_offset = 0.0;        ///< mm, median of the parts' measured less model's depth
 };
 
-/// What hides parts besides other parts.
+/// The surroundings that hide parts in addition to other parts.
 struct Surroundings {
   Bin bin;
   Pose shift;  ///< from the set's world to the bin frame

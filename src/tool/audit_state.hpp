@@ -18,18 +18,18 @@ namespace bin_scenes {
 struct AuditPlace {
   static constexpr std::size_t image = SIZE_MAX;
   std::size_t view = 0;       ///< index into BopSet::views
-  std::size_t entry = image;  ///< of scene_gt
+  std::size_t entry = image;  ///< index in scene_gt
 };
 
 /// A figure of every part, or of every image.
 struct AuditMeasure {
-  const char* key;  ///< of --limit
+  const char* key;  ///< key of the option --limit
   const char* name;
   const char* unit;
-  double limit;  ///< what is above it is counted
+  double limit;  ///< values above it are counted
   bool strict;   ///< nothing may be above the limit; otherwise a share of the parts may
   std::vector<double> values = {};
-  std::vector<AuditPlace> places = {};  ///< of the values
+  std::vector<AuditPlace> places = {};  ///< where each value was measured
   void add(double value, const AuditPlace& place) {
     values.push_back(value);
     places.push_back(place);
@@ -57,7 +57,7 @@ struct AuditFigures {
   AuditMeasure depth_common{"depth_common", "depth of whole images off from the models'", "mm", 5.0, true};
   std::size_t scenes = 0, heaps = 0, parts = 0, escaped = 0;
   std::map<std::size_t, LabelledImage> images;  ///< by view
-  std::vector<std::string> faults;              ///< of the whole set
+  std::vector<std::string> faults;              ///< errors that concern the whole set
 
   std::vector<AuditMeasure*> all();
 };
@@ -68,7 +68,7 @@ struct AuditHeap {
 };
 std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures);
 
-/// What the parts lie in.
+/// The surroundings of the parts.
 struct AuditBin {
   std::optional<Vec3> inner_size;  ///< m; a box around the world's origin, with its floor at z = 0
   std::optional<double> floor;     ///< m; a table at this height

@@ -10,10 +10,10 @@
 
 namespace bin_scenes {
 
-/// Where images truly are, less where the stated K puts them.
+/// Displacement (pixels) of the true images from where the stated camera matrix projects them.
 struct CameraError {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< px, of the principal point
-  Eigen::Vector2d scale = Eigen::Vector2d::Zero();  ///< of the focal lengths, relative
+  Eigen::Vector2d scale = Eigen::Vector2d::Zero();  ///< relative error of the focal lengths
   double radial = 0.0;                              ///< k1 of a lens whose distortion the images still have
 
   /// px, of a point that the stated K images at `at`.

@@ -11,7 +11,7 @@
 namespace bin_scenes {
 
 struct ChosenUnit {
-  std::optional<Unit> unit;  ///< none: the file's own
+  std::optional<Unit> unit;  ///< none: the unit that the file states
   double metres = 1.0;       ///< per unit of the file
   std::string reason;        ///< for people
 };
@@ -38,7 +38,7 @@ struct SensorPlace {
   std::string warning;           ///< empty, or what it cannot see
 };
 
-/// Where the sensor stands by default, the whole bin in view, or as far as its range allows.
+/// Returns the default position of the sensor, from which it sees the whole bin, or as much as its range allows.
 SensorPlace place_sensor(const Sensor& sensor, const Bin& bin);
 
 }  // namespace bin_scenes

@@ -41,8 +41,7 @@ class SceneStore {
   /// Scenes of the request that have a folder. Reads the directory: what is asked for may be far more.
   std::set<std::size_t> indices(const Request& request) const;
   enum class Found { nothing, accepted, set_apart };
-  /// What is there of scene `index`. A scene of another request is an input Error; a folder that lacks one of the
-  /// formats counts as nothing, because making it again gives the same scene.
+  /// Returns which files of scene `index` exist.
   Found find(std::size_t index, const Request& request) const;
   /// Reasons of a scene that is there, set apart.
   std::vector<std::string> reasons(std::size_t index) const;

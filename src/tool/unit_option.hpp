@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// None if the option was not given. Throws an input Error.
+/// Returns none if the option was not given.
 inline std::optional<Unit> unit_given(const std::string& text) {
   if (text.empty()) return std::nullopt;
   for (const auto& [name, unit] : names(Unit{}))

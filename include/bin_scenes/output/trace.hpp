@@ -1,6 +1,7 @@
 /// The option --trace of `generate`: it records the states of all parts over simulated time. The extension of the file
 /// determines the format: .bag and .mcap contain ROS messages with markers of the contacts and need a program with ROS,
-/// all other files are CSV. A trace is for looking at; nothing reads it back into a simulation.
+/// .jsonl contains parts and contacts for the page of `view`, and all other files are CSV. A trace is for looking at;
+/// nothing reads it back into a simulation.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"

@@ -1,5 +1,5 @@
 /// The light of a projector or laser on a surface: the share that reaches the camera, and the regions in shadow. Light
-/// by way of other surfaces is in interreflection.hpp.
+/// via other surfaces is in interreflection.hpp.
 #pragma once
 
 #include "bin_scenes/sensor/models.hpp"

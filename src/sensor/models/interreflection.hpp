@@ -1,4 +1,4 @@
-/// Light that reaches a point by way of other surfaces. Patterns are linear in light: the light at a point is a set of
+/// Light that reaches a point via other surfaces. Patterns are linear in light: the light at a point is a set of
 /// paths, each with a place in the pattern and a weight, and the same set serves every pattern (Gupta et al. 2013, "A
 /// practical approach to 3D scanning in the presence of interreflections, subsurface scattering and defocus").
 #pragma once

@@ -1,4 +1,4 @@
-/// Light that reaches a time-of-flight camera by way of other surfaces. It arrives later than direct light, and the
+/// Light that reaches a time-of-flight camera via other surfaces. It arrives later than direct light, and the
 /// camera measures the phase of their sum. The measured distance of corners, and of surfaces beside walls, is therefore
 /// too large (Fuchs 2010, "Multipath interference compensation in time-of-flight camera images"; Freedman et al. 2014,
 /// "SRA: fast removal of general multipath for ToF sensors").

@@ -3,8 +3,8 @@
 /// direction of the surface's lobe is followed. The results of both methods are weighted by how likely each was to find
 /// the path (multiple importance sampling). On matte surfaces, only the points on lamps are used.
 ///
-/// From the second surface on, mirrors are at least as rough as `soft`. Otherwise the few paths that find a lamp by way
-/// of two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
+/// From the second surface on, mirrors are at least as rough as `soft`. Otherwise the few paths that find a lamp via
+/// two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
 /// robust light transport").
 ///
 /// The random points fill their squares evenly (Sobol points whose digits are flipped by a key of the pixel), so that

@@ -1,4 +1,4 @@
-/// The light of a laser sheet that reaches the camera by way of other surfaces. Where a shiny surface reflects the line
+/// The light of a laser sheet that reaches the camera via other surfaces. Where a shiny surface reflects the line
 /// onto another surface, the camera sees a second line.
 ///
 /// Light is followed from the line: rays of the fan continue from the surface that they meet, in random directions of

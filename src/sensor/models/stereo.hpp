@@ -1,6 +1,6 @@
 /// The sensor model `stereo`: two cameras side by side, with a projector of dots. The fidelity `decoded` renders both
 /// images and matches them. The fidelity `analytic` reproduces the errors of such a matcher by formulas: its disparity
-/// noise is common to a window, and without dots it matches edges only. Light by way of other surfaces comes from many
+/// noise is common to a window, and without dots it matches edges only. Light via other surfaces comes from many
 /// dots and appears as a haze over the pattern.
 #pragma once
 

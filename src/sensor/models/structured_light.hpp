@@ -11,7 +11,7 @@
 /// light is summed over cells of a sixteenth of a pixel, weighted by the pixel's area and the blur of the lens
 /// (structured_light_strip.hpp).
 ///
-/// Light by way of other surfaces adds a fringe with another phase, and the sum of both is decoded
+/// Light via other surfaces adds a fringe with another phase, and the sum of both is decoded
 /// (indirect_field.hpp). Where this light is brighter than direct light, it may flip bits of the Gray code; there, both
 /// fidelities make the images. A second fringe with another period may detect reflected light (ReflectionFilter).
 #pragma once
