@@ -27,8 +27,8 @@ struct BopImage {
   const RangeImage* seen = nullptr;  ///< for its SNR, true labels and normals; has to outlive this
   std::vector<int> ids;              ///< ids of the parts, by entry
   std::vector<MaskBox> visible;      ///< by entry
-  std::vector<MaskBox>
-      whole;  ///< boxes of the silhouettes, by entry; if there are fewer than `ids`, the others are not known
+  /// Boxes of the silhouettes, by entry; if there are fewer than `ids`, the others are not known.
+  std::vector<MaskBox> whole;
 };
 
 std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,

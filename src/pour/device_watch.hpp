@@ -17,29 +17,33 @@ class DeviceWatch {
   DeviceWatch(WorldWatch& watch, const WatchRules& rules, double rest_window)
       : watch_(&watch), rules_(rules), window_(rest_window) {}
 
-  /// The heap is in another world from now on: rest and energies begin anew, and the worst of before is kept.
+  /// States that the heap is in another world from now on: the observation of rest and energies starts again, and the
+  /// largest earlier gains are kept.
   void begin_world(WorldId world);
-  void leave_world();  ///< before it is removed
-  /// The clock begins at 0 and nothing of before counts.
+  void leave_world();  ///< must be called before the world is removed
+  /// Sets the clock to 0; no earlier observation counts.
   void restart();
   void restart_rest() { rest_anew_ = true; }
   void enter(std::size_t body) { watch_->enter(world_, body); }
 
-  /// The next steps end at a `time` at which the heap is observed. `ages`: what moved() will be asked for.
+  /// States that the next steps end at `time`, at which the heap is observed. `ages`: the times for which moved() will
+  /// be called.
   void ask(double time, const Ages& ages, bool driven, bool states);
-  /// The next steps end without an observation.
+  /// States that the next steps end without an observation.
   void ask_nothing(bool states);
   /// The steps have ended.
   void take();
   void note_states() { states_ = true; }
 
-  bool observed() const { return observed_; }   ///< since restart()
+  bool observed() const { return observed_; }   ///< whether there was an observation since restart()
   bool is_current() const { return current_; }  ///< whether the observation belongs to the end of the last steps
   bool has_states() const { return states_; }   ///< whether the states belong to the end of the last steps
   const WatchSeen& seen() const { return watch_->seen(world_); }
-  /// Bodies that moved within the last `age` seconds, one of those asked for.
+  /// Returns the number of bodies that moved within the last `age` seconds, which must be one of the ages given to
+  /// ask().
   std::size_t moved(double age) const;
-  /// Seconds since a body last moved, and whether it has rested for the window; by the states that were read last.
+  /// Returns the time (s) since a body last moved, and whether it has been at rest for the window, by the states that
+  /// were read last.
   double still(std::size_t body) const;
   bool resting(std::size_t body) const;
   bool is_outside(std::size_t body) const { return watch_->bodies(world_)[body].outside; }
@@ -56,9 +60,9 @@ class DeviceWatch {
   WatchRules rules_;
   double window_;  ///< s
   WorldId world_ = 0;
-  std::vector<double> times_{0.0};  ///< s, by number of observation; the first one is no observation
+  std::vector<double> times_{0.0};  ///< s, by number of observation; the first entry stands for none
   Ages ages_{};
-  std::uint32_t rested_ = 0;  ///< bodies that moved in or before this observation have rested
+  std::uint32_t rested_ = 0;  ///< bodies that last moved in this observation or earlier are at rest
   bool rest_anew_ = true, energy_anew_ = true, asked_ = false, observed_ = false, current_ = false, states_ = true;
   WatchedEnergy earlier_;  ///< gains of earlier worlds of the heap, with their times
 };

@@ -30,21 +30,22 @@
 
 namespace bin_scenes {
 
-/// Gain from which a scene carries the flag energy_gained.
+/// The gain from which a scene has the flag energy_gained.
 constexpr double flagged_gain = 0.1;
-/// Ratio of speeds from which a scene carries the flag part_thrown.
+/// The ratio of speeds from which a scene has the flag part_thrown.
 constexpr double flagged_ratio = 2.0;
 
-/// The energy of all bodies together, against the least that it was before.
+/// Compares the energy of all bodies together with its lowest earlier value.
 class WorldEnergy {
  public:
   explicit WorldEnergy(std::size_t bodies) : bodies_(bodies) {}
 
-  /// The sum of all bodies begins anew with their next energies: something has worked on them.
+  /// Starts the observation again with the next energies, because something has worked on the bodies.
   void begin() { begins_ = true; }
-  /// A body comes in with this energy (J).
+  /// States that a body enters with this energy (J).
   void enter(std::size_t body, double energy) { bodies_[body].least = energy; }
-  /// Energies (J) of a body now, and its unit m g d. Call it for each body that is in, then finish().
+  /// Adds the present energies (J) of a body, and its unit of energy m g d. Call it for each body that is present, then
+  /// call finish().
   void observe(std::size_t body, double kinetic, double potential, double unit);
   /// Ends an observation.
   void finish(double time);
@@ -53,8 +54,8 @@ class WorldEnergy {
 
  private:
   struct Body {
-    double now = 0.0, least = 0.0;  ///< J: the latest, and when the sum was least
-    double swiftest = 0.0;          ///< J: most kinetic energy since then
+    double now = 0.0, least = 0.0;  ///< J: latest value, and value when the sum was lowest
+    double swiftest = 0.0;          ///< J: largest kinetic energy since then
     double unit = 0.0;
     bool in = false;  ///< whether the body is present in this observation
   };
@@ -67,11 +68,12 @@ class EnergyAudit {
  public:
   explicit EnergyAudit(const WorldDef& world);
 
-  /// A body comes in, or is put elsewhere: with this state it begins anew.
+  /// States that a body enters or is moved: its observation starts with this state.
   void enter(std::size_t body, const BodyState& state);
   void leave(std::size_t body) { bodies_[body].in = false, world_energy_.begin(); }
-  /// Bodies that never came in are left out, whatever their states. `driven`: something that follows a path may have
-  /// worked on them since the last observation, and all begin anew.
+  /// Observes all bodies at `time` (s). Bodies that never entered are left out, whatever their states. `driven`: moving
+  /// fixed bodies or a moving frame may have worked on the bodies since the last observation, so that all observations
+  /// start again.
   void observe(double time, const std::vector<BodyState>& states, bool driven = false);
 
   const EnergyReport& worst() const { return worst_; }
@@ -83,13 +85,14 @@ class EnergyAudit {
     double kinetic = 0.0, potential = 0.0;  ///< J, at the last observation
     Vec3 center = Vec3::Zero();             ///< centre of mass at the last observation (m)
     double speed = 0.0;                     ///< m/s
-    double swift = 0.0;                     ///< m/s, of its fastest point
+    double swift = 0.0;                     ///< m/s, speed of the body's fastest point
   };
-  /// Ball in which a body was since the last observation.
+  /// A ball that contains all positions of a body since the last observation.
   struct Reach {
     std::size_t body;
     Vec3 center;
-    double radius, gain, before, now;  ///< m, J; m/s: of its fastest point before, and of its centre now
+    double radius, gain, before,
+        now;  ///< m; J; m/s: earlier speed of its fastest point, and present speed of its centre
   };
 
   void observe_world(double time);
@@ -101,7 +104,7 @@ class EnergyAudit {
   double least_speed(std::size_t body) const;
 
   const WorldDef& world_;
-  double gravity_;  ///< m/s2; that of the earth where there is none, to have a unit
+  double gravity_;  ///< m/s2; without gravity, that of the earth, so that there is a unit of energy
   double last_ = 0.0;
   std::vector<Body> bodies_;
   EnergyReport worst_;

@@ -14,7 +14,7 @@ struct GripperBody {
   Pose pose;  ///< from the model to the gripper frame; for fingers, at an opening of 0
 };
 
-/// Two fingers, that at -x first, or a ring; then the palm.
+/// Returns two fingers, the one at -x first, or a ring; the palm is the last body.
 std::vector<GripperBody> bodies_of(const Gripper& gripper);
 
 }  // namespace bin_scenes

@@ -24,45 +24,47 @@ class HeapCore final : private HeapView {
   HeapCore& operator=(const HeapCore&) = delete;
 
   // Changes between two settles.
-  /// Replaces the plan by one with more part lines at its end, whose parts enter.
+  /// Replaces the plan by one with further part lines at its end, whose parts enter.
   void extend(std::shared_ptr<const PourPlan> plan);
   void remove(std::size_t body);
   void set_gravity(const Vec3& gravity);
-  /// Moves bodies along a unit vector at a set speed, and simulates all others meanwhile.
+  /// Moves bodies along a unit vector at a given speed, and simulates all others meanwhile.
   void lift(const std::vector<std::size_t>& bodies, const Vec3& direction, double distance, const RunHooks& hooks);
-  /// After a cancelled step: makes a new world with the states of the last observation and settles it again.
+  /// Recovers from a cancelled step: makes a new world with the states of the last observation and settles it again.
   void recover();
 
   // Settling.
-  /// Sets the clock to 0; the current stage goes on.
+  /// Sets the clock to 0; the present stage continues.
   void start_clock();
   std::size_t index() const { return index_; }
   WorldId id() const { return id_; }
   Solver& solver() const { return solver_; }
   double time() const { return time_; }  ///< s since the clock was started
   const std::vector<BodyState>& states();
-  /// s until the request's set time; infinity without one.
+  /// Returns the time (s) that is left until Request::seconds; infinity if it is not set.
   double time_left() const;
   /// If the device of the solver observes worlds, requests an observation.
   void ask(double seconds, bool slice_ends);
   void advanced(double seconds);
-  /// After advanced(): whether the heap cannot be advanced further by what its device has seen of it. The states that
-  /// the solver has are then to be those of now. Not for solvers whose device does not observe worlds.
+  /// Whether the heap cannot be advanced further, as far as its device has observed it; call it after advanced(). The
+  /// states of the solver must then be read before update(). Always false for solvers whose device does not observe
+  /// worlds.
   bool wants_states();
-  /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice, then
-  /// change_world(). Different heaps of a solver may be advanced by different threads at once.
+  /// Updates rest and escape, inserts waiting parts, and applies the transitions between stages. Call it at the end of
+  /// a slice of time, and then change_world(). Different heaps of a solver may be updated by different threads at the
+  /// same time.
   void advance();
-  /// Once all parts are in: the world without raised walls, which may be a new one. By the solver's thread.
+  /// Changes to the world without raised walls when all parts have entered; this may be a new world.
   void change_world();
-  /// Rest and escape alone, at the end of a set time. `driven`: as EnergyAudit::observe() has it.
+  /// Updates rest and escape only, at the end of a given time. `driven`: see EnergyAudit::observe().
   void update_rest(bool driven);
-  /// Whether bin or parts follow a motion now: then follow() comes before each step.
+  /// Whether the bin or parts follow a motion now. If so, follow() must be called before each step.
   bool follows() const { return course_ == Course::under_way; }
-  void follow(double seconds);  ///< puts them where they are, with their velocities of the next `seconds`
+  void follow(double seconds);  ///< moves them to their present poses, with their velocities for the next `seconds`
   bool over() const;
   Progress progress() const;
 
-  bool has(int id) const;  ///< poured and not taken out
+  bool has(int id) const;  ///< whether the part was poured and not removed
   bool settled() const { return settling_.done(); }
   bool at_rest() const { return all_in() && all_rest(); }
   Scene scene();
@@ -72,23 +74,24 @@ class HeapCore final : private HeapView {
   enum class Place { waiting, in, escaped, no_room, removed };
   enum class Course { ahead, under_way, over };  ///< state of the prescribed motions
 
-  /// `lifted`: bodies that the world is to have as heavy as if a hand held them.
+  /// Makes a world. `lifted`: bodies that get as large a mass as if a hand held them.
   void note_worst();
   void make_world(bool raised_walls, const std::vector<std::size_t>& lifted = {});
   void remake_world(const std::vector<std::size_t>& lifted, const std::vector<bool>& woken);
   std::vector<bool> dragged_by(const std::vector<std::size_t>& lifted, const Vec3& direction) const;
   void wake(const std::vector<bool>& bodies);
-  std::vector<bool> unverified() const;  ///< bodies that moved in the last check
-  void let_go();                         ///< lifted bodies have their own masses again
+  std::vector<bool> unverified() const;  ///< the bodies that moved in the last check
+  void let_go();                         ///< gives lifted bodies their own masses again
   bool is_kept(std::size_t body) const { return !kept_.empty() && kept_[body]; }
-  bool is_kept(const ContactForce& force) const;  ///< of all that it acts on
-  void release_kept();                            ///< forgets the forces of bodies that have woken
-  void wake_kept_beside(std::size_t body);        ///< for one that is taken out
-  std::vector<ContactForce> forces() const;       ///< forces of the last step, or from when the bodies fell asleep
+  bool is_kept(const ContactForce& force)
+      const;            ///< whether all bodies on which the force acts are asleep since the world was made again
+  void release_kept();  ///< forgets the forces of bodies that have woken
+  void wake_kept_beside(std::size_t body);   ///< wakes the neighbours of a body that is removed
+  std::vector<ContactForce> forces() const;  ///< forces of the last step, or from when the bodies fell asleep
   void begin(Stage stage);
   void set_solver_phase();
   void insert(std::size_t body, const BodyState& state);
-  /// Puts parts from body `first` on where they start; returns whether some of them enter from above.
+  /// Places the parts from body `first` on at their start poses. Returns whether some of them enter from above.
   bool enter(std::size_t first);
   void start_given(std::size_t first);
   void start_grid();
@@ -108,11 +111,11 @@ class HeapCore final : private HeapView {
   void restart_rest();
   void restart_watch();
   bool resting(std::size_t body) const;
-  double still(std::size_t body) const;  ///< s
+  double still(std::size_t body) const;  ///< s since the body last moved
   std::size_t unrested() const;
   bool slow(std::size_t body) const;
   double top() const;
-  bool moves(std::size_t body) const;  ///< it is in and not fixed
+  bool moves(std::size_t body) const;  ///< whether the body is present and not fixed
   template <class Test>
   std::size_t count_moving(Test test) const;
   const PartModel& part(std::size_t body) const { return *plan_->world.parts[plan_->line_of[body]]; }
@@ -137,18 +140,18 @@ class HeapCore final : private HeapView {
   std::uint64_t earlier_steps_ = 0;
   bool fresh_ = false, walls_raised_ = false;
   bool poured_ = false;  ///< whether parts entered in the last slice of time
-  bool lifts_ = false;   ///< the world has lifted bodies
-  /// Bodies that sleep since the world was remade. They keep their states, which a solver returns but for rounding, and
-  /// the forces between them, of which it knows nothing.
+  bool lifts_ = false;   ///< whether the world has lifted bodies
+  /// Bodies that have slept since the world was made again. They keep their states, which a solver would return with
+  /// rounding errors, and the forces between them, which the new world does not know.
   std::vector<bool> kept_;
   std::vector<ContactForce> kept_forces_;
   Course course_ = Course::ahead;
-  double course_begun_ = 0.0;  ///< s
+  double course_begun_ = 0.0;  ///< s, start of the present motions
   /// Part line: the motions of those before it, and of the bin, were in an earlier course.
   std::size_t moving_from_ = 0;
   std::vector<BodyState> states_;
   std::vector<Place> place_;
-  std::vector<std::size_t> waiting_;   ///< bodies that have not entered, next one first
+  std::vector<std::size_t> waiting_;   ///< bodies that have not entered, the next one first
   std::optional<DeviceWatch> device_;  ///< takes the place of the next two if the solver has a WorldWatch
   RestWatch rest_;
   std::optional<EnergyAudit> audit_;  ///< audit of this settle()

@@ -12,11 +12,11 @@
 
 namespace bin_scenes {
 
-/// Ratio from which a scene carries the flag part_jammed.
+/// The ratio from which a scene has the flag part_jammed.
 constexpr double flagged_squeeze = 10.0;
 
-/// The part that is squeezed most, for its own weight and that of all it touches, directly or not, that is higher.
-/// Nothing without gravity.
+/// Finds the part with the largest ratio of its squeeze to the weight of itself and of all higher parts that it
+/// touches, directly or through others.
 JamReport worst_jam(const WorldDef& world, const std::vector<BodyState>& states,
                     const std::vector<ContactForce>& forces);
 

@@ -21,7 +21,7 @@ struct PourPlan {
   double largest_part;                        ///< m: diagonal
   Aabb bin_bounds;                            ///< mesh bin only
   Opening opening;                            ///< the box in which parts enter; upper.z is the height of the rim
-  double entry_height = 0.0;                  ///< walls while parts enter (box bin)
+  double entry_height = 0.0;                  ///< m, height of the walls of a box while parts enter
   std::vector<std::size_t> line_of, copy_of;  ///< by body: index of its part line, and number within the line
 };
 

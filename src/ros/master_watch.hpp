@@ -22,8 +22,8 @@ class MasterWatch {
  private:
   void ask_master();
 
-  std::vector<std::string>
-      services_;  ///< services of this process; those that were offered in the last ten seconds may be missing
+  /// Services of this process; those that were offered in the last ten seconds may be missing.
+  std::vector<std::string> services_;
   std::size_t asked_ = 0;
   ThreadQueue thread_;
   ros::WallTimer timer_;

@@ -13,15 +13,15 @@
 
 namespace bin_scenes {
 
-/// Steps that make up a stretch of simulated time.
+/// The steps into which an interval of simulated time is divided.
 struct Steps {
   std::uint64_t whole = 0;
-  double rest = 0.0;  ///< s: of a last, shorter step; 0: none
+  double rest = 0.0;  ///< s, length of a last, shorter step; 0: none
 
   std::uint64_t count() const { return whole + (rest > 0.0 ? 1 : 0); }
 };
 
-/// A rest below a millionth of a step is rounding, not time.
+/// A remainder below a millionth of a step is rounding and not time.
 inline Steps steps_in(double seconds, double step) {
   constexpr double rounding = 1e-6;
   Steps steps;
@@ -31,10 +31,10 @@ inline Steps steps_in(double seconds, double step) {
   return steps;
 }
 
-/// Steps into which a time step (s) must be cut for parts whose smallest bounding diagonal is given (m), under gravity
-/// (m/s2), so that what is at rest falls by no more than `fall` of that diagonal in one. With longer steps than those
-/// of the default contacts that a heap hangs on are found too late: parts sink into each other and, at 1/15 s, through
-/// the floor.
+/// Returns the number of steps into which a time step (s) must be divided for parts with the given smallest diagonal
+/// (m) under gravity (m/s2): parts at rest then fall by no more than `fall` of that diagonal in one step. With steps
+/// longer than those of the default, the contacts that support a heap are found too late: parts sink into each other
+/// and, at 1/15 s, through the floor.
 inline int step_cuts(double time_step, double gravity, double smallest_diagonal, double fall = 1.8e-3) {
   constexpr double most_cuts = 1000.0;
   const double longest = std::sqrt(2.0 * fall * smallest_diagonal / std::max(gravity, 1e-9));
@@ -42,7 +42,7 @@ inline int step_cuts(double time_step, double gravity, double smallest_diagonal,
   return cuts > 1.0 ? static_cast<int>(std::min(cuts, most_cuts)) : 1;
 }
 
-/// What the report says of it. `key`: of the setting, "solver.sphere.time_step".
+/// Returns the flag with which the report states it. `key`: of the setting, "solver.sphere.time_step".
 inline Flag step_cut_flag(const std::string& key, double time_step, int cuts, double smallest_diagonal) {
   const auto milli = [](double value) {
     char text[32];

@@ -18,7 +18,7 @@
 namespace bin_scenes::thesis {
 
 struct Memory {
-  // What never changes during the steps.
+  // Data that does not change during the steps.
   gpu::ThesisSettingsBlock settings{};
   std::vector<gpu::ThesisWorld> worlds;
   std::vector<gpu::ThesisSheet> sheets;
@@ -27,7 +27,7 @@ struct Memory {
   std::vector<gpu::ThesisSphere> spheres;
   // What the solver moves.
   std::vector<gpu::ThesisState> states;
-  // What a step leaves behind.
+  // Data that a step produces.
   std::vector<gpu::ThesisInertia> inertias;
   std::vector<gpu::vec4> centers;  ///< w: radius
   std::vector<gpu::uint> sphere_cells, cell_counts, cell_starts, members;
@@ -41,15 +41,15 @@ struct Memory {
   std::vector<gpu::ThesisNeed> needs;
 };
 
-/// Index of a body of a world in Memory, and back.
+/// Converts between the index of a body in its world and its index in Memory.
 struct BodyIndex {
   std::size_t world = 0, body = 0;
 };
 
 /// Sizes of the buffers that grow; everything else follows from the worlds.
 struct Capacity {
-  std::size_t contacts = 4;     ///< most of a sphere
-  double mean_contacts = 2.0;   ///< of all spheres that move, touching or not
+  std::size_t contacts = 4;     ///< largest number for one sphere
+  double mean_contacts = 2.0;   ///< mean over all moving spheres, whether they touch or not
   std::size_t neighbours = 32;  ///< per body, power of two
 };
 
@@ -59,10 +59,10 @@ struct Capacity {
 Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& settings, const Capacity& capacity,
                double horizon, std::vector<BodyIndex>& index, double share = 1.0);
 
-/// Gives the arrays that a step leaves behind their sizes, as the device's buffers have them.
+/// Resizes the arrays of the results of a step to the sizes of the buffers on the device.
 void size_scratch(Memory& memory);
 
-/// Bytes of the largest buffer that a world needs, for splitting a batch.
+/// Returns the size (bytes) of the largest buffer that a world needs, by which a batch is divided.
 std::size_t largest_buffer(const World& world, const ThesisSettings& settings, const Capacity& capacity);
 
 }  // namespace bin_scenes::thesis

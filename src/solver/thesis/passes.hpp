@@ -13,7 +13,7 @@ class Passes {
  public:
   Passes();
 
-  /// Uploads what a batch is made of, but for what the device holds already, and gives the scratch buffers their sizes.
+  /// Uploads the data of a batch, except what the device has already, and sizes the scratch buffers.
   void load(const Memory& memory);
   /// One whole step.
   void step();
@@ -35,12 +35,12 @@ class Passes {
   void velocity();
   void position();
 
-  /// Where the bodies are; those given to the next load() stay on the device if they are the same.
+  /// Returns the states of the bodies. Those that are given to the next load() stay on the device if they are the same.
   const std::vector<gpu::ThesisState>& states();
-  /// Status since load(); waits for the steps so far.
+  /// Returns the status since load(), and waits for the steps so far.
   gpu::ThesisStatus status();
   std::vector<gpu::ThesisNeed> needs() const;
-  std::size_t bytes() const;  ///< of all buffers on the device
+  std::size_t bytes() const;  ///< size of all buffers on the device
   /// Everything, for tests.
   Memory download() const;
 
@@ -49,7 +49,7 @@ class Passes {
  private:
   void bind() const;
 
-  Memory held_;  ///< what was last uploaded or read of it; no states: steps have moved them since
+  Memory held_;  ///< data that was last uploaded or read; without states, which steps have changed since
   std::vector<gpu::ThesisSettingsBlock> held_settings_;
   gl::Program force_, move_to_world_, count_cells_, scatter_, reorder_, detect_, plan_, count_pairs_, split_mass_,
       impulse_, pre_velocity_, velocity_, position_;

@@ -16,17 +16,17 @@ inline gpu::vec4 vec4(const Vec3& v, double w = 0.0) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
 }
 
-/// A part as spheres about its centre of mass, in its principal axes.
+/// A part as spheres around its centre of mass, in its principal axes.
 struct Shape {
   std::vector<Sphere> spheres;
   Vec3 gyration = Vec3::Ones();  ///< principal moments / mass (m2)
-  Pose frame;                    ///< of the principal axes in the model frame
-  double radius = 0.0;           ///< of the bounding sphere about the centre of mass (m)
+  Pose frame;                    ///< from the principal axes to the model frame
+  double radius = 0.0;           ///< radius of the bounding sphere around the centre of mass (m)
 };
 
-/// Mass properties of the true mesh, spheres as given (model frame).
+/// Makes a shape from given spheres (model frame) with the mass properties of the true mesh.
 Shape make_shape(const std::vector<Sphere>& spheres, const MassProperties& mass);
-/// Each sphere a point of the same mass, the thesis's eq 2.31; a lone sphere is taken as solid.
+/// Makes a shape whose spheres are points of equal mass (equation 2.31 of the thesis); a single sphere counts as solid.
 Shape make_shape(const std::vector<Sphere>& spheres);
 
 struct World {
@@ -34,27 +34,28 @@ struct World {
   std::vector<BodyDef> bodies;
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   std::vector<gpu::ThesisSheet> sheets;  ///< planes of the bin
-  std::vector<Sphere> bin_spheres;       ///< of a bin given as a mesh, in the bin frame
+  std::vector<Sphere> bin_spheres;       ///< spheres of a bin that is a mesh, in the bin frame
   double bin_friction = 0.5, bin_restitution = 0.0;
-  Aabb domain;  ///< where a collision grid is worth its cells; empty: wherever the bodies are
+  Aabb domain;  ///< region for which a collision grid is worthwhile; empty: wherever the bodies are
 
   std::vector<gpu::ThesisState> states;  ///< by body
   std::vector<bool> present;
   std::uint64_t steps = 0;
-  std::size_t contacts_need = 0, neighbours_need = 0;  ///< most seen by any sphere, any body
+  std::size_t contacts_need = 0, neighbours_need = 0;  ///< largest numbers for any sphere, and for any body
   bool contacts_dropped = false;
 };
 
-/// All bodies absent, box and floor laid out as sheets; a mesh bin's spheres are the caller's.
+/// Makes a world without present bodies, in which a box and a floor are sheets. The caller adds the spheres of a mesh
+/// bin.
 World make_world(const WorldDef& def, const std::vector<Shape>& shapes, const ThesisSettings& settings);
 
 gpu::ThesisState to_state(const BodyState& state, const Shape& shape);
 BodyState to_body_state(const gpu::ThesisState& state, const Shape& shape);
 
-/// Floor and walls of a box, or the floor alone. The floor pushes back from any depth; walls from within 8 sphere
-/// radii or two wall thicknesses, so that what lies outside is not drawn in.
-/// @param radius of the lattice's spheres (m); the lattice is 2 radius tightness wide, their tops touch the bin's
-/// planes.
+/// Returns the sheets of floor and walls of a box, or of the floor only. The floor pushes bodies back from any depth;
+/// walls push them back from within 8 sphere radii or two wall thicknesses, so that bodies outside are not drawn in.
+/// @param radius  radius of the lattice's spheres (m); their distance is 2 radius tightness, and their tops touch the
+/// planes of the bin
 std::vector<gpu::ThesisSheet> bin_sheets(const Bin& bin, double wall_height, double radius, double tightness);
 
 }  // namespace bin_scenes::thesis
