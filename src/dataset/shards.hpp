@@ -24,7 +24,9 @@ std::size_t shard_count(const DataSetFacts& facts);
 /// The offset index beside a shard. Throws an input Error if it is missing or damaged.
 nlohmann::ordered_json offsets_of(const DataFolder& folder, std::size_t shard);
 
-/// Shards that were packed before are kept: a run that was killed at any time continues from there.
+/// Packs samples into shards and removes the samples. Beside each shard is an offset index (shard-000000.json: key ->
+/// file -> [offset, bytes]), and key_to_shard.json states in which shard each image is. Shards that were packed before
+/// are kept: a run that was killed at any time continues from there. Throws Error.
 class ShardPacker {
  public:
   /// @param done  heaps that are made, or given up

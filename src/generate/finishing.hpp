@@ -37,8 +37,8 @@ class Finishing {
   Finishing(const Finishing&) = delete;
   Finishing& operator=(const Finishing&) = delete;
 
-  /// Adds a poured scene. If pouring is faster than finishing, or than the caller, it waits and hands scenes on,
-  /// because memory holds the images of a few scenes but not of all.
+  /// Adds a poured scene. Places count from 0, and each is added once. If pouring is faster than finishing, or than the
+  /// caller, it waits and hands scenes on, because memory holds the images of a few scenes but not of all.
   void add(std::size_t place, Scene&& scene);
   void hand_on_finished();  ///< hands on the scenes that are finished and next in order; never waits
   void wait();              ///< for all, and hands on each as soon as it is finished; throws what `finish` threw

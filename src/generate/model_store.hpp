@@ -12,8 +12,9 @@ namespace bin_scenes {
 
 class ModelStore {
  public:
-  /// Keeps the last few models that the present request does not use, for requests that alternate. Memory does not grow
-  /// with the number of requests.
+  /// Loads one model for each part line; equal ones are shared. Sizes are compared with the bin. The last few models
+  /// that the present request does not use are kept, for requests that alternate. Memory does not grow with the number
+  /// of requests.
   void load(const Request& request);
 
   const LoadedRequest& loaded() const { return loaded_; }  ///< the last one

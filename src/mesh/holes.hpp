@@ -13,8 +13,10 @@ namespace bin_scenes::repair {
 std::vector<std::vector<std::uint32_t>> boundary_loops(const Mesh& mesh);
 double perimeter(const Mesh& mesh, const std::vector<std::uint32_t>& loop);
 
-/// Closes loops by the triangulation with the smallest area (Barequet & Sharir 1995, "Filling gaps in the boundary of a
-/// polyhedron"); very long loops are closed by a fan of triangles around their centroid.
+/// Closes boundary loops shorter than `max_perimeter`, and longer ones if the cover is inside the other shells of the
+/// mesh, so that the outside does not change. Loops are closed by the triangulation with the smallest area (Barequet &
+/// Sharir 1995, "Filling gaps in the boundary of a polyhedron"); very long loops are closed by a fan of triangles
+/// around their centroid.
 struct Closed {
   std::size_t small = 0, hidden = 0;
 };

@@ -26,7 +26,10 @@ struct BopVisibility {
 BopVisibility true_visibility(const RangeImage& image, const std::vector<std::uint16_t>& counts, int id,
                               const PixelBox& seen_box, const Mesh& mesh, const Pose& model_in_camera);
 
-/// Returns none if a part of the mesh is beside or behind the camera.
+/// Determines the visible pixels of a part: a pixel is visible if the part is no more than `tolerance` (m) behind the
+/// measured distance, or if nothing was measured there. Returns none if a part of the mesh is beside or behind the
+/// camera.
+/// @param distance  of each pixel from the camera (m); 0 = not measured
 std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_in_camera, const Lens& lens,
                                             const std::vector<float>& distance, double tolerance);
 

@@ -29,8 +29,12 @@ struct SolidMeasure {
   std::function<bool(const Vec3& point)> inside;
 };
 
-/// Cuts a piece by the best plane among those through its concave edges and across its axes: the one after which the
-/// hulls of both sides enclose the smallest volume.
+/// Returns the corners of the pieces, each as a set of points for a hull. The piece whose hull extends farthest beyond
+/// the solid is cut next, until none extends by more than `limit` (m) or there are `max_pieces`. Among the planes
+/// through concave edges of the piece and across its axes, the one is used after which the hulls of both sides enclose
+/// the smallest volume. The result is exact for unions of convex solids that meet at concave edges. The idea is that of
+/// approximate convex decomposition by cutting (Lien & Amato 2007, "Approximate convex decomposition of polyhedra"; Wei
+/// et al. 2022, CoACD).
 std::vector<std::vector<Vec3>> plane_cut_pieces(const Mesh& mesh, const SolidMeasure& measure, double limit,
                                                 int max_pieces);
 

@@ -43,7 +43,8 @@ class HeapCore final : private HeapView {
   const std::vector<BodyState>& states();
   /// Returns the time (s) that is left until Request::seconds; infinity if it is not set.
   double time_left() const;
-  /// If the device of the solver observes worlds, requests an observation.
+  /// Announces that the next `seconds` will be simulated, and that the heap is observed at their end if a slice of time
+  /// or the given time ends then. If the device of the solver observes worlds, this requests an observation.
   void ask(double seconds, bool slice_ends);
   void advanced(double seconds);
   /// Whether the heap cannot be advanced further, as far as its device has observed it; call it after advanced(). The

@@ -88,7 +88,10 @@ class BoxMotion {
   Vec3 shift_;
 };
 
-/// Of two children, the one with the smaller bound is visited first.
+/// Traverses pairs of nodes depth first. `bound(box of a, box of b)`, each in the frame of its own mesh, is a number
+/// below which no pair of triangles of these nodes can be; a pair is entered if it is < limit(). Of two children, the
+/// one with the smaller bound is visited first. `leaf` is called with pairs of triangles, which are transformed by the
+/// poses.
 template <class Bound, class Limit, class Leaf>
 void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, Bound&& bound, Limit&& limit,
           Leaf&& leaf) {

@@ -13,7 +13,7 @@ namespace bin_scenes {
 struct SurfaceSample {
   Vec3 point = Vec3::Zero();   ///< on the surface, model frame (m)
   Vec3 normal = Vec3::Zero();  ///< outward unit normal, averaged over the faces at edges and corners
-  double spacing = 0.0;        ///< mean distance to the next samples of its kind (m)
+  double spacing = 0.0;        ///< m, mean distance to neighbouring samples of the same kind (corners, edges or faces)
 };
 
 /// All samples of a part.

@@ -10,7 +10,7 @@ namespace bin_scenes::cells {
 constexpr int side = 4, per_pixel = side * side;  ///< row-major
 constexpr int corners[4] = {0, side - 1, per_pixel - side, per_pixel - 1};
 
-/// Where in its pixel a cell is asked, -0.5 to 0.5.
+/// Returns the position of a cell's sample point within the pixel, -0.5 to 0.5.
 constexpr double across(int k) {
   return (k % side + (k / side + 0.5) / side) / side - 0.5;
 }

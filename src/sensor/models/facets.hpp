@@ -9,11 +9,13 @@
 
 namespace bin_scenes {
 
-/// Lobe of a mirror with facets distributed by GGX (Walter et al. 2007, "Microfacet models for refraction"; shadowing
-/// correlated by height), over a white matte surface that faces the light. It sends back all light from everywhere.
+/// Reflectance of a rough mirror whose facets are distributed by GGX (Walter et al. 2007, "Microfacet models for
+/// refraction"; shadowing correlated by height), relative to a white matte surface that faces the light. A perfect
+/// mirror reflects all light that arrives from all directions.
 /// @param alpha  width, 0.001 to 1
-/// @param in, out, half  cosines of the normal to light, to eye and to what is halfway between them; above 0
-/// @param once   share that a facet sends on at this angle, 1 of a perfect mirror
+/// @param in, out, half  cosines between the normal and the light, the eye, and the direction halfway between them;
+/// above 0
+/// @param once   share of the light that a facet reflects at this angle, 1 for a perfect mirror
 /// @param often  mean of that share over all angles
 double facet_lobe(double alpha, double in, double out, double half, double once = 1.0, double often = 1.0);
 
@@ -34,7 +36,7 @@ double brushed_lobe(const Surface& surface, const Vec3& in, const Vec3& out, dou
 /// Share of unpolarised light that a smooth metal mirrors (Born, Wolf, "Principles of Optics", 14.2).
 /// @param cosine  of the angle to the normal
 double fresnel(double cosine, double refraction, double extinction);
-/// Its mean over a hemisphere of even light.
+/// Returns the mean of fresnel() over a hemisphere with constant radiance.
 double mean_fresnel(double refraction, double extinction);
 
 }  // namespace bin_scenes

@@ -14,13 +14,13 @@ class Fringes {
  public:
   /// @param width  columns of the projector. Throws an input Error if the Gray code has too few bits for them.
   Fringes(const StructuredLightSettings& settings, int width);
-  /// Of another period and without a Gray code.
+  /// Makes fringes with another period and without a Gray code.
   static Fringes without_code(StructuredLightSettings settings, double period, int width);
 
   int images() const { return steps_ + bits_; }
   /// Adds weight * light (0 dark, 1 the projector's white) of every image at a column, blurred by pixel and lens.
   void add_light(double column, double weight, float* images) const;
-  /// The same of light that is even over `spread` columns.
+  /// Adds light that is constant over `spread` columns.
   void add_even_light(double column, double spread, double weight, float* images) const;
 
   /// Radians a column.
@@ -36,24 +36,25 @@ class Fringes {
   double column_of(const Phase& phase) const { return phase.periods * period_ - 0.5; }
 
   struct Reading {
-    double column;      ///< of the projector; NaN if the code makes no sense
+    double column;      ///< column of the projector; NaN if the decoded value is impossible
     double modulation;  ///< amplitude of the fringe, in the images' unit
   };
   /// The values that a device reads at one pixel of all images.
   Reading read(const float* images) const;
 
-  // The same without images, for a white of 1: mean and amplitude of the fringe.
+  // Returns mean and amplitude of the fringe for a white of 1, without making images.
   double mean() const { return 0.5 * (1.0 + black_); }
   double amplitude() const { return amplitude_; }
-  /// By which factor a pixel weakens the amplitude that covers so many columns from one side to the other, across and
-  /// down: its box's and that of a blur (pixel, standard deviation).
+  /// Returns the factor by which a pixel reduces the amplitude of a fringe. across, down: number of columns between its
+  /// opposite sides in both directions; blur: standard deviation (pixels). The factor includes the area of the pixel
+  /// and the blur.
   double seen_through(double across, double down, double blur) const;
   /// Largest value of cos over the images at this column: what saturates first.
   double brightest(double column) const;
   /// Standard deviation of the column for that of an image's value: sqrt(2 / steps) * sigma / modulation is the
   /// phase's.
   double column_sigma(double image_sigma, double modulation) const;
-  /// The same for the amplitude read.
+  /// Returns the standard deviation of the measured amplitude.
   double amplitude_sigma(double image_sigma) const;
 
  private:

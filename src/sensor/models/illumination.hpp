@@ -16,7 +16,7 @@ class SpotDrawing;
 /// share and a lobe of facets (facets.hpp). Over the hemisphere it sends back its albedo. All directions are unit and
 /// point away from the surface. 0 where one of them lies behind it.
 double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye);
-/// The same, what is scattered and what is mirrored apart: they have colours of their own.
+/// The reflected light, divided into scattered and mirrored light, which have different colours.
 struct SentBack {
   double matte = 0.0, mirrored = 0.0;
 };
@@ -31,7 +31,7 @@ struct SeenPoint {
   Vec3 position, normal;  ///< the normal turned towards the eye
   std::int32_t line = -1;
   bool hit = false;
-  std::uint16_t label = 0;                ///< of the part whose texture it has
+  std::uint16_t label = 0;                ///< label of the part, whose texture the surface has
   std::uint32_t face = Scenery::no_face;  ///< no_face: not known
 };
 
@@ -39,9 +39,9 @@ SeenPoint seen_point(const View& view, std::size_t pixel);
 
 struct Lit {
   Validity code = Validity::nothing;  ///< valid, nothing, shadow or outside
-  double column = 0.0, row = 0.0;     ///< of the projector, where the point lies in its field
+  double column = 0.0, row = 0.0;     ///< position in the projector's image, if the point is in its field
   double distance = 0.0;              ///< m, from the light
-  double reflected = 0.0;             ///< as above; 0 unless the code is valid
+  double reflected = 0.0;             ///< reflected light, see above; 0 unless the code is valid
 };
 
 /// What lights a scene. Shadows are those of the true meshes.
@@ -50,15 +50,15 @@ struct LightSource {
   const Lens& lens;
   const Pose& pose;
   const Surfaces& surfaces;
-  // What spares rays to points.
-  const ClearSight* sight = nullptr;       ///< of the light: where the face is known
-  const SpotDrawing* occlusion = nullptr;  ///< of all depths from the light: where points are many
+  // Data structures that make rays to points unnecessary.
+  const ClearSight* sight = nullptr;       ///< regions that the light reaches; used where the face is known
+  const SpotDrawing* occlusion = nullptr;  ///< all depths as seen from the light; used for many points
 };
 
 /// Light of a projector at points seen from an eye.
 void light(const LightSource& source, const Vec3& eye, const SeenPoint* points, Lit* lit, std::size_t count);
 
-/// The same for an eye of its own each.
+/// Computes the light with a separate eye position for each point.
 void light(const LightSource& source, const Vec3* eyes, const SeenPoint* points, Lit* lit, std::size_t count);
 
 /// Ray from just above a surface to a point, for Scenery::blocked. The gap keeps single precision from letting a

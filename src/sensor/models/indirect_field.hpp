@@ -21,13 +21,13 @@ class IndirectField {
     int samples = 16;     ///< least number of rays of a node
     double error = 0.03;  ///< standard error of a node's light / Pattern::unit above which it gets more; 0: none does
   };
-  /// What a pattern makes of light by some paths: adds to the channels, which interpolation mixes, to as many by which
-  /// they grow as the paths' ends move by steps[0] (m), and to as many for steps[1].
+  /// A pattern converts light paths to channels. It adds three values for each channel: the channel itself, which is
+  /// interpolated; its change when the ends of the paths move by steps[0] (m); and its change for steps[1].
   using Respond = std::function<void(const std::vector<Path>& paths, const Vec3* steps, float* channels)>;
   struct Pattern {
     int channels;  ///< of `respond`
-    int growing;  ///< how many of them, the first ones, are followed between nodes as paths move with the pixel; others
-                  ///< are interpolated only
+    int growing;  ///< number of channels, from the first on, that are followed between nodes as the paths move with the
+                  ///< pixel; the others are interpolated only
     Respond respond;
     double unit = 0.0;  ///< light of which Setup::error is a share: typical direct light, as Path::weight; 0: none
   };
@@ -40,7 +40,7 @@ class IndirectField {
   bool at(std::size_t pixel, int count, float* channels) const;
 
  private:
-  /// What makes two pixels see one face.
+  /// The data by which two pixels count as seeing the same face.
   struct Face {
     Eigen::Vector3f point, normal;  ///< camera frame, m
     std::int32_t line;
@@ -80,12 +80,12 @@ class IndirectField {
   const Respond& respond_;
   Random random_;
   int width_, height_;
-  int columns_, rows_;                   ///< of tiles
+  int columns_, rows_;                   ///< numbers of tiles
   std::vector<Eigen::Vector3f> points_;  ///< m, camera frame, by pixel
   Nodes nodes_;
   std::vector<std::uint32_t> near_;   ///< nodes that count in tiles, tile by tile
-  std::vector<std::uint32_t> first_;  ///< by tile, and one more: its first in near_
-  std::vector<char> lit_;             ///< by tile: whether one of them is lit
+  std::vector<std::uint32_t> first_;  ///< by tile, with one more entry: index of its first node in near_
+  std::vector<char> lit_;             ///< by tile: whether any of its nodes is lit
 };
 
 }  // namespace bin_scenes

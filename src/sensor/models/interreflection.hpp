@@ -17,7 +17,7 @@ class Lamp {
   virtual ~Lamp() = default;
   /// Light of `count` points, each seen by an eye of its own.
   virtual void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const = 0;
-  /// By how much the column grows with a point's place (1/m).
+  /// Returns the gradient of the column with respect to the position of a point (1/m).
   virtual Vec3 slope(const Vec3& point, double column) const = 0;
   /// Unit, the direction of its light at a point.
   virtual Vec3 direction_at(const Vec3& point) const = 0;
@@ -39,20 +39,20 @@ class ProjectorLamp : public Lamp {
 };
 
 struct Path {
-  double column, row;  ///< of the projector
+  double column, row;  ///< position in the projector's image
   double weight;       ///< white light that reaches the eye: Lit::reflected / distance^2 as of direct light
   double spread;       ///< columns that the sample stands for, from one side to the other
-  Vec3 slope;          ///< by which the column grows as the point moves (1/m), direction and all planes kept
-  double length;       ///< m, from the lamp via the other surfaces to the point
-  Vec3 longer;         ///< by which the length grows likewise
+  Vec3 slope;     ///< 1/m, gradient of the column when the point moves while the direction and all planes stay the same
+  double length;  ///< m, from the lamp via the other surfaces to the point
+  Vec3 longer;    ///< gradient of the path length under the same motion
 };
 
 struct Gathered {
-  std::vector<Path> paths;  ///< those that are lit
+  std::vector<Path> paths;  ///< the paths that are lit
   double nearness = 0.0;    ///< 1/m, mean over the samples of 1 / distance to what they meet
 };
 
-/// What rays meet, and what lights it.
+/// The surfaces that rays can hit, and the lamp that lights them.
 struct LitScene {
   const Scenery& scenery;
   const Surfaces& surfaces;

@@ -44,9 +44,9 @@ class Lamps {
   bool any_sampled() const { return !shares_.empty(); }
   /// Whether met() counts anything with that weight.
   bool any_met(Met weight) const { return any_behind_all(weight) || (weight != Met::unsampled && !flats_.empty()); }
-  /// The same of lamps that lie behind all surfaces.
+  /// Returns the radiance of lamps that are behind all surfaces, such as the sky.
   bool any_behind_all(Met weight) const { return !domes_.empty() || (weight != Met::unsampled && !skies_.empty()); }
-  /// The same of lamps that have a place: whether a ray runs into one, whatever lies between.
+  /// Whether a ray hits a lamp with a position, whatever is between.
   bool flat_ahead(const Vec3& origin, const Vec3& direction, Met weight) const;
   /// Radiance of a white matte plate that nothing occludes.
   Rgb on_plate(const Vec3& point, const Vec3& normal) const;
@@ -56,7 +56,7 @@ class Lamps {
     Vec3 center, x, y, normal;
     Rgb radiance;
     bool ring;
-    double width, height;  ///< of a ring inner and outer radius
+    double width, height;  ///< m; for a ring, the inner and the outer radius
     double area;
   };
   struct Dome {
@@ -79,7 +79,7 @@ class Lamps {
   std::vector<Beam> beams_;
   std::vector<Dome> domes_;
   std::vector<Sky> skies_;
-  std::vector<double> shares_;  ///< of the samples: flats, beams, skies; the sum is 1
+  std::vector<double> shares_;  ///< share of the samples of each lamp: flats, beams, skies; their sum is 1
 };
 
 }  // namespace bin_scenes

@@ -30,7 +30,7 @@ struct Profiles {
   std::vector<std::array<float, 3>> normals;  ///< true, same frame
   std::vector<std::uint16_t> label;           ///< true, of the line that was found
   std::vector<float> intensity;               ///< signal of the peak
-  std::vector<float> snr;                     ///< of that signal over noise and speckle of one pixel
+  std::vector<float> snr;                     ///< signal / noise and speckle of one pixel
 };
 
 class LaserLine {
@@ -66,10 +66,10 @@ class LaserLine {
     std::uint16_t label;
     bool visible;
   };
-  /// What a profile's camera could see.
+  /// The lines that the camera can see in one profile.
   struct Lines {
     std::vector<Line> lines;      ///< by sample
-    std::vector<Validity> codes;  ///< by sample: why there is none
+    std::vector<Validity> codes;  ///< by sample: why there is no line
   };
   struct Carriage {
     Vec3 laser, eye;  ///< bin frame, at one profile
@@ -111,7 +111,9 @@ class LaserLine {
   std::optional<Reading> read(std::vector<float>& window, double sigma, Random& draw) const;
   double sigma_at(double depth) const;
   double noise_of(double signal) const;
-  int reach_of(double sigma) const { return static_cast<int>(std::ceil(4.0 * sigma)) + 2; }  ///< of a window, pixel
+  int reach_of(double sigma) const {
+    return static_cast<int>(std::ceil(4.0 * sigma)) + 2;
+  }  ///< half the width of a window (pixels)
 
   const Scenery& scenery_;
   const Surfaces& surfaces_;
@@ -120,7 +122,7 @@ class LaserLine {
   Random rays_;
   bool upright_;  ///< the line runs along the image's columns: a sample is a row
   int samples_;
-  std::vector<Vec3> directions_;  ///< of the fan, bin frame
+  std::vector<Vec3> directions_;  ///< directions of the fan, bin frame
   Mat3 to_camera_;                ///< from the bin frame
   Vec3 sheet_;                    ///< normal, bin frame
   double reference_ = 1.0;        ///< m from the laser

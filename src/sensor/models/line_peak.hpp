@@ -11,9 +11,10 @@ struct LinePeak {
   double height;  ///< the largest signal of the line
 };
 
-/// The brightest row of a window, made finer by the parabola through the logarithms of its signal and of those a line's
-/// width away: exact for a Gaussian line without noise. None if the brightest row is below `threshold` or at the end.
-/// @param sigma  rows, of the line that the device expects
+/// Finds the brightest row of a window with sub-pixel accuracy, by the parabola through the logarithms of its signal
+/// and of the signals a line's width away; it is exact for a Gaussian line without noise. Returns none if the brightest
+/// row is below `threshold` or at an end of the window.
+/// @param sigma  rows, width of the line that the device expects
 std::optional<LinePeak> find_line(const float* signals, std::size_t count, double sigma, double threshold);
 
 }  // namespace bin_scenes

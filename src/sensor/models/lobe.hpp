@@ -20,7 +20,7 @@ class Lobe {
   };
   /// @param u, v  [0, 1), even in the square
   Sample at(double u, double v) const;
-  /// That with which at() draws a direction (1/sr).
+  /// Returns the probability density with which at() draws a direction (1/sr).
   double density_of(const Vec3& direction) const { return density(frame_.transpose() * direction); }
 
  private:
@@ -32,7 +32,7 @@ class Lobe {
   Mat3 frame_;  ///< local to world, z is the normal
   Vec3 eye_;    ///< local
   Widths widths_;
-  double share_;  ///< of samples that are drawn from the mirrored lobe
+  double share_;  ///< share of the samples that are drawn from the mirrored lobe
 };
 
 }  // namespace bin_scenes

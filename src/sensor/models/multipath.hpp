@@ -18,7 +18,8 @@ class Multipath {
   Multipath(const Scenery& scenery, const View& view, const Surfaces& surfaces, const IndirectField::Setup& setup,
             double modulation, const Random& rays);
 
-  /// Of a pixel: as much as direct light has of reflected / distance^2, and the phase by which it comes later.
+  /// Returns the indirect light of a pixel, in units of reflected / distance^2 of direct light, with the phase by which
+  /// it arrives later.
   std::complex<double> at(std::size_t pixel) const;
   /// Range (m) that a phase stands for.
   double range(double phase) const { return 0.5 * phase / wave_; }

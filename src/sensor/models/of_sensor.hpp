@@ -28,12 +28,12 @@ LaserLine::Setup laser_line_setup(const Sensor& sensor);
 
 IndirectField::Setup indirect_of(const Sensor& sensor);
 Random random_of(const Draw& draw);
-/// Of the samples of indirect light.
+/// The key of the random samples of indirect light.
 Random rays_of(const Draw& draw);
 /// Takes over the truth of the view.
 void add_truth(RangeImage& image, View&& view);
 RangeImage image_of(View&& view, Measurement&& measured);
-/// Of a model that has both fidelities.
+/// Measures with a model that supports both fidelities.
 template <class Model>
 RangeImage image_by(const Model& model, Fidelity fidelity, View&& view, const Draw& draw) {
   const Random random = random_of(draw);
@@ -43,7 +43,7 @@ RangeImage image_by(const Model& model, Fidelity fidelity, View&& view, const Dr
 /// A plate large enough for any view, that far along the sensor's optical axis, turned about the camera's x.
 struct Plate {
   Plate(const Sensor& sensor, double distance, double incidence, double albedo);
-  /// As many rays as a pixel's surroundings take.
+  /// Returns the view of the plate's centre, with as many pixels as the surroundings of one pixel need.
   View seen_in_the_middle() const;
 
   Targets targets;

@@ -32,24 +32,24 @@ class PathTracer {
     int bounces = 1;                                    ///< other surfaces that light may meet
     double blur = 0.0;                                  ///< pixel, standard deviation of the lens's blur
     double near = 0.0, far = 1e9;                       ///< m, depths that are seen
-    enum class By { both, lamps, lobe } by = By::both;  ///< what finds lamps: tests compare them
+    enum class By { both, lamps, lobe } by = By::both;  ///< how lamps are found; tests compare these methods
   };
   PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
              const Setup& setup, const Random& key);
 
   static constexpr double bends = 0.82;  ///< cosine of 35 degrees: faces that meet in more are two
-  /// What some of a pixel's paths see: a part, on faces that bend on from each other.
+  /// A side of an edge within a pixel: the part that some of its paths see, on faces that continue each other.
   struct Side {
     Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = point;  ///< bin frame, m
     std::uint16_t label = 0;
-    float share = 0.0f;  ///< of the paths
+    float share = 0.0f;  ///< share of the paths
     /// Whether another point is of it. @param off  m, so far it may lie from the plane of this one
     bool takes(const Eigen::Vector3f& other, const Eigen::Vector3f& its_normal, std::uint16_t of, float off) const;
   };
-  /// What makes a pixel's radiance uncertain.
+  /// The uncertainty of the radiance of a pixel.
   struct Grain {
-    float variance = 0.0f;           ///< of red, green and blue's mean, as far as both halves of the paths show
-    std::array<Side, 2> sides = {};  ///< those that paths see first; the shares of others are missing
+    float variance = 0.0f;  ///< variance of the mean of red, green and blue, estimated from the two halves of the paths
+    std::array<Side, 2> sides = {};  ///< the first two sides that paths see; shares of further sides are missing
     bool one_face() const { return sides[0].share == 1.0f; }
   };
   /// Mean radiance of each pixel of a row.
@@ -62,7 +62,7 @@ class PathTracer {
     Vec3 to_eye = Vec3::Zero();
     std::int32_t line = -1;
     std::uint16_t label = 0;
-    std::uint32_t pixel = 0, sample = 0;  ///< of the block; of the pixel
+    std::uint32_t pixel = 0, sample = 0;  ///< index of the pixel in the block, and of the sample in the pixel
     Rgb weight = Rgb::Ones();
   };
   struct Scramble {
@@ -93,11 +93,12 @@ class PathTracer {
   Pose pose_;
   Mat3 turn_;
   const Surfaces& surfaces_;
-  Surfaces soft_;  ///< those of surfaces that are not seen themselves
+  Surfaces soft_;  ///< surfaces for hits that the camera does not see directly
   const Lamps& lamps_;
   Setup setup_;
   Random key_;
-  /// Of a pixel's paths so many follow the lobe of what it sees, and go on; from that number on they ask lamps there.
+  /// Number of a pixel's paths that follow the lobe of the visible surface and continue. The paths from this number on
+  /// test points on lamps at the visible surface.
   std::uint32_t follow_, onward_, ask_from_;
   SpotDrawing spots_;
   std::vector<std::array<std::uint32_t, 2>> net_;  ///< points of the unit square, times 2^32

@@ -25,10 +25,11 @@ class SheetGlow {
     double blur;   ///< pixel, standard deviation of the lens's blur
     double sheet;  ///< m, standard deviation across the sheet
   };
-  /// Where a ray of the fan met a surface.
+  /// A point where a ray of the fan hit a surface.
   struct Source {
     SeenPoint point;
-    double flux;   ///< of the sheet between this ray and the next: signal of a white surface that faces it * m^2
+    double flux;  ///< light of the sheet between this ray and the next: signal of a white surface that faces the laser,
+                  ///< times m^2
     double apart;  ///< m, to where the next ray passes
   };
   SheetGlow(const Scenery& scenery, const Surfaces& surfaces, const Camera& camera);
@@ -71,7 +72,7 @@ class SheetGlow {
   const Surfaces& surfaces_;
   Camera camera_;
   int samples_, across_;
-  Grid fine_, coarse_;  ///< of narrow and of wide spots
+  Grid fine_, coarse_;  ///< light of narrow and of wide spots
 };
 
 }  // namespace bin_scenes

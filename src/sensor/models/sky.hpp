@@ -17,8 +17,7 @@ struct Panorama {
   int width = 0, height = 0;
   std::vector<Eigen::Array3f> radiance;  ///< row-major
 };
-/// Of a Radiance file (.hdr). Kept while somebody uses it, and the last few longer; read again once the file has
-/// changed. Throws an input Error that names the file.
+/// Reads a Radiance file (.hdr).
 std::shared_ptr<const Panorama> read_panorama(const std::string& path);
 
 class Sky {
@@ -33,9 +32,9 @@ class Sky {
   };
   /// @param u, v  [0, 1)
   Sample sample(double u, double v) const;
-  /// That with which sample() draws a direction; 0: never.
+  /// Returns the probability density with which sample() draws a direction; 0: never.
   double density(const Vec3& direction) const;
-  /// Of all directions, mean of the colours: radiance times solid angle.
+  /// Returns the integral of radiance over all directions, as the mean of the colours.
   double flux() const { return rows_.back(); }
 
  private:

@@ -79,14 +79,15 @@ class Stereo {
   std::vector<Lit> lit_;
   double gain_ = 0.0;
   std::vector<double> scales_;  ///< exposures / ImagerSettings::exposure, the longest first
-  std::vector<float> pattern_;  ///< of dots; empty: even light
+  std::vector<float> pattern_;  ///< pattern of dots; empty: constant light
   double brightness_ = 1.0;     ///< mean of the pattern
-  Random rays_;                 ///< of indirect light
+  Random rays_;                 ///< random numbers of indirect light
   std::vector<float> haze_;     ///< indirect light of the first camera's pixels (signal); empty: none
 };
 
-/// Disparities (pixel) of the first image's pixels; NaN unmatched. By semi-global matching (Hirschmueller 2008, as in
-/// OpenCV), then refined, or by match_census(); without texture nothing is matched, and speckles are removed.
+/// Returns the disparities (pixels) of the pixels of the first image; NaN means unmatched. They are found by
+/// semi-global matching (Hirschmueller 2008, as in OpenCV) with subsequent refinement, or by match_census(). Regions
+/// without texture are not matched, and speckles are removed.
 std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
                          const StereoPipeline& pipeline, const Imager& imager, int least_disparity);
 

@@ -60,7 +60,7 @@ class StructuredLight {
  private:
   using Vec2 = Eigen::Vector2d;
   struct Pixel {
-    std::size_t index;  ///< in the image, row-major
+    std::size_t index;  ///< index of the pixel in the image, row-major
     Vec3 ray, normal;   ///< through its centre (z = 1) and of its face, camera frame
     double plane;       ///< depth * normal . ray: what all points of the face share
   };
@@ -71,7 +71,7 @@ class StructuredLight {
     double column = 0.0;
     Fringe fringe{0.0, 0.0};
     bool mixed = false;
-    double second_column = 0.0, second_amplitude = 0.0;  ///< by the second fringe, if there is one
+    double second_column = 0.0, second_amplitude = 0.0;  ///< values of the second fringe, if there is one
   };
   class Strip;
   struct Blend;
@@ -120,24 +120,24 @@ class StructuredLight {
   const Surfaces& surfaces_;
   Setup setup_;
   Fringes fringes_;
-  std::unique_ptr<const Fringes> second_;  ///< none: reflections are not filtered
+  std::unique_ptr<const Fringes> second_;  ///< null: reflections are not filtered
   Imager imager_;
   Triangulation triangulation_;
   PixelRays rays_;
   ClearSight sight_;
-  SpotDrawing spots_, shades_;  ///< of the camera, of the projector
-  Mat3 turn_;                   ///< of the camera
+  SpotDrawing spots_, shades_;  ///< drawings as seen from the camera, and from the projector
+  Mat3 turn_;                   ///< orientation of the camera
 
-  // Of the light that falls on what each pixel's centre sees, row-major.
+  // The light on the surface that the centre of each pixel sees, row-major.
   std::vector<Validity> codes_;  ///< valid, nothing, shadow or outside
-  std::vector<double> columns_;  ///< of the projector
+  std::vector<double> columns_;  ///< column of the projector
   std::vector<double> whites_;   ///< reflected / distance^2
   std::vector<double> planes_;   ///< Pixel::plane
   std::vector<double> worn_;     ///< share of ambient light sent back; empty: no surface has a texture
   std::vector<double> scales_;   ///< exposures / ImagerSettings::exposure, the longest first
   double gain_ = 0.0;            ///< signal of the projector's white = gain * white
 
-  std::unique_ptr<const IndirectField> indirect_;  ///< none: no bounces
+  std::unique_ptr<const IndirectField> indirect_;  ///< null: no indirect light
 };
 
 }  // namespace bin_scenes

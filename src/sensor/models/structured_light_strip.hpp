@@ -11,11 +11,11 @@
 
 namespace bin_scenes {
 
-/// Some rows of the image and what their pixels near edges see. A pixel is *uneven* if a neighbour lies off its face,
-/// is lit differently or has another surface, and rays through its corners confirm it. Where they meet an edge, all its
-/// cells are asked by rays; where they meet faces that bend gently, cells lie between centre and corners; where an
-/// edge runs just between two pixels, cells lie on the pixel's face. Cells of neighbours within the blur's reach follow
-/// from their faces.
+/// Some rows of the image, and what their pixels near edges see. A pixel is *uneven* if a neighbour is off its face, is
+/// lit differently or has another surface, and if rays through its corners confirm it. If these rays meet an edge, all
+/// cells of the pixel are sampled by rays. If they meet faces that bend gently, the cells are interpolated between
+/// centre and corners. If an edge runs just between two pixels, the cells are on the pixel's face. The cells of
+/// neighbours within the reach of the blur follow from their faces.
 class StructuredLight::Strip {
  public:
   static constexpr int per_pixel = cells::per_pixel;
@@ -38,7 +38,7 @@ class StructuredLight::Strip {
 
   /// Whether the light of a pixel (of the strip's rows) has to be summed over cells.
   bool near_edge(std::size_t index) const { return near_[index - origin_] != 0; }
-  /// What it sums up to. Calls use(cells, weights) for each pixel that is lit.
+  /// The sum over the cells.
   template <class Use>
   Blend blend(const Pixel& pixel, const Use& use) const;
 
@@ -62,7 +62,7 @@ class StructuredLight::Strip {
   double hidden_step(const Pixel& pixel) const;
   void first_hits(const std::vector<Place>& places, const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
   std::vector<Seen> cast(const std::vector<Place>& places) const;
-  /// How the corner cells of a pixel lie to its face.
+  /// The position of the corner cells of a pixel relative to its face.
   enum class Kind { even, beside, bent, mixed, crossed };
   struct Uneven {
     std::size_t index;  ///< pixel
@@ -90,21 +90,21 @@ class StructuredLight::Strip {
   std::vector<char> near_;
   std::vector<std::int32_t> cells_of_;  ///< index into cells_ by pixel; -1: none
   std::vector<Cells> cells_;
-  std::vector<Phasors> second_;  ///< of the second fringe, by cells; empty: there is none
+  std::vector<Phasors> second_;  ///< phasors of the second fringe, by cells; empty: there is none
   Values across_, down_;         ///< places of cells in their pixel
-  std::vector<Values> weights_;  ///< of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
+  std::vector<Values> weights_;  ///< weights of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
 };
 
 /// The light of a pixel near an edge.
 struct StructuredLight::Blend {
-  static constexpr double tolerated = 0.03;  ///< of off_share: more is a mixed pixel
+  static constexpr double tolerated = 0.03;  ///< largest off_share of a pixel that is not mixed
   double white = 0.0;                        ///< mean over its footprint
   double cosine = 0.0, sine = 0.0;
-  double second_cosine = 0.0, second_sine = 0.0;  ///< of the second fringe, if there is one
-  double column = 0.0;                            ///< of the brightest cell
+  double second_cosine = 0.0, second_sine = 0.0;  ///< phasor of the second fringe, if there is one
+  double column = 0.0;                            ///< column of the brightest cell
   double diffuse = 0.0;                           ///< share of ambient light sent back
-  double off_share = 0.0;                         ///< of the footprint that lies on other faces by more than edge_step
-  bool outside = false;                           ///< a part lies outside the projector's field
+  double off_share = 0.0;  ///< share of the footprint that is on other faces, farther away than edge_step
+  bool outside = false;    ///< a part lies outside the projector's field
 };
 
 template <class Use>

@@ -10,8 +10,8 @@
 namespace bin_scenes {
 
 namespace detail {
-/// t / (pi/2 - t) of their formulas. It has a pole at 90 degrees, and they measured up to 80: beyond, it stays as
-/// at 80.
+/// The factor t / (pi/2 - t) of the paper's formulas. It has a pole at 90 degrees, and the authors measured up to 80
+/// degrees. Beyond 80 degrees, the value stays that of 80 degrees.
 inline double tilt(double incidence) {
   const double t = std::min(incidence, M_PI * 80.0 / 180.0);
   return t / (0.5 * M_PI - t);

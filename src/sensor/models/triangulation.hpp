@@ -32,8 +32,8 @@ class Triangulation {
   bool distorted_;
   Mat3 turn_;                         ///< camera to projector
   Vec3 origin_;                       ///< the camera in the projector's frame
-  Vec3 share_, ahead_;                ///< by a direction of the camera's frame
-  double share_there_, ahead_there_;  ///< of the camera itself
+  Vec3 share_, ahead_;                ///< coefficients of a direction in the camera's frame
+  double share_there_, ahead_there_;  ///< values at the camera itself
 };
 
 }  // namespace bin_scenes

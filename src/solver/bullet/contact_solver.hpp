@@ -25,21 +25,21 @@
 
 namespace bin_scenes::bullet {
 
-/// What a step did to a body that touches something; hung on btRigidBody's user pointer by the world.
+/// The effect of a step on a body in contact. The world attaches it to btRigidBody's user pointer.
 struct Motion;
 
 ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintSolver {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
-  /// Before bodies move in a sub-step, and again after. With one, three cubes tremble on each other, and ten rings.
+  /// Number of sweeps of a sub-step before bodies move, and again after. With one sweep, three cubes on each other
+  /// tremble, and so do ten rings.
   static constexpr int sweeps = 2;
 
   /// Flags and numbers of btContactSolverInfo this solver is written for; m_numIterations is the number of sub-steps.
   static void configure(btContactSolverInfo & info);
 
-  /// Of what presses at a point or along a line (units): it is a patch, and resists spin and rolling there. 0: parts
-  /// rock on their edges and facets for as long as they are looked at.
+  /// Radius (units) of contact at a point or along a line: such a contact is a patch that resists spin and rolling.
   btScalar patch_radius = 0;
 
   std::uint64_t rows = 0;  ///< contacts solved since construction, a counter for the profile
@@ -63,8 +63,8 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
  private:
   struct Contact {
-    btVector3 place;    ///< of the contact, from the centre of mass of its first body
-    btScalar distance;  ///< where bodies were at detection
+    btVector3 place;    ///< position of the contact, from the centre of mass of its first body
+    btScalar distance;  ///< distance at the time of detection
     btScalar approach;  ///< normal velocity before its first push, negative
     bool pushed;
     btScalar lasting;  ///< normal impulse that the sub-step began with
@@ -98,7 +98,8 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
   std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
   std::vector<int> blocks_;        ///< first contact of each run between the same two bodies, and their count
-  std::vector<char> unconverged_, were_unconverged_;  ///< by body: a contact of it is, in this sweep and before it
+  std::vector<char> unconverged_, were_unconverged_;  ///< by body: whether one of its contacts has not converged, in
+                                                      ///< this sweep and in the previous one
   std::vector<Displacement> displacements_;           ///< parallel to m_tmpSolverBodyPool
 };
 

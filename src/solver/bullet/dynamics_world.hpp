@@ -10,21 +10,22 @@
 
 namespace bin_scenes::bullet {
 
-/// What the integrator remembers of a body between the start and the end of a step; hung on btRigidBody's user pointer.
+/// Data of a body that the integrator keeps from the start to the end of a step. It is attached to btRigidBody's user
+/// pointer.
 struct Motion {
   Vec3 inertia = Vec3::Ones();                     ///< principal moments (Bullet's body frame is the principal frame)
   btVector3 linear{0, 0, 0};                       ///< velocity at the start of the step
-  btQuaternion turn{0, 0, 0, 1};                   ///< of torque-free motion over the step
+  btQuaternion turn{0, 0, 0, 1};                   ///< rotation of torque-free motion over the step
   bool touches = false;                            ///< the contact solver moved it in this step:
-  btVector3 moved{0, 0, 0}, turned{0, 0, 0};       ///< by displacement and turn
+  btVector3 moved{0, 0, 0}, turned{0, 0, 0};       ///< displacement and rotation
   btTransform start = btTransform::getIdentity();  ///< pose at the start of the step
   btVector3 ahead_moved{0, 0, 0}, ahead_turned{0, 0, 0};  ///< displacement and turn to where its contacts are found
 };
 
-/// None of walls and of what is fixed: Bullet has one solver body for all of these.
+/// Returns null for walls and fixed bodies: Bullet has one solver body for all of them.
 Motion* motion_of(const btSolverBody& body);
 
-/// Its levers do not turn with it, and it rolls freely.
+/// Whether the body is a ball. The lever arms of a ball do not rotate with it, and it rolls freely.
 bool is_ball(const btCollisionObject& body);
 
 /// Angle (rad) a body may turn in one torque-free step: Newton converges, and the path of its axis is followed.
@@ -45,7 +46,8 @@ ATTRIBUTE_ALIGNED16(class) DynamicsWorld : public btDiscreteDynamicsWorld {
   void performDiscreteCollisionDetection() override;
 
  protected:
-  void saveKinematicState(btScalar) override {}  ///< what follows a path has the velocity it was given
+  /// Does nothing, because a body on a prescribed motion keeps the velocity that it was given.
+  void saveKinematicState(btScalar) override {}
   void predictUnconstraintMotion(btScalar dt) override;
   void integrateTransforms(btScalar dt) override;
 };

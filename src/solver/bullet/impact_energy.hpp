@@ -23,7 +23,7 @@ class ImpactEnergy {
 
  private:
   struct Hit {
-    int body, group;            ///< in the pool; the first of its group here
+    int body, group;            ///< index in the pool; index of the first body of its group
     btVector3 linear, angular;  ///< before the rebound, units/s and rad/s
   };
   int place_of(int body);
@@ -31,7 +31,7 @@ class ImpactEnergy {
 
   btAlignedObjectArray<btSolverBody>& bodies_;
   std::vector<Hit> hit_;
-  std::vector<int> places_;  ///< of the pool's bodies in hit_; -1: not in it
+  std::vector<int> places_;  ///< by body of the pool: its index in hit_; -1: not in it
 };
 
 }  // namespace bin_scenes::bullet

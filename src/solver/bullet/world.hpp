@@ -54,8 +54,8 @@ class World {
     const BodyDef* def = nullptr;
     PartShapePtr shape;
     Motion motion;
-    std::unique_ptr<btRigidBody> rigid;  ///< none while absent
-    BodyState last;                      ///< what an absent body had last
+    std::unique_ptr<btRigidBody> rigid;  ///< null while the body is absent
+    BodyState last;                      ///< last state of an absent body
     bool frozen = false;                 ///< asleep as Bullet cannot have it: alone, in the midst of what moves
     btTransform woke_at;                 ///< or went on from since
   };

@@ -12,10 +12,11 @@ namespace bin_scenes::sphere {
 struct Cone {
   static constexpr int max_bounds = 6;
 
-  Vec3f axis = Vec3f::Zero();  ///< of a face
+  Vec3f axis = Vec3f::Zero();  ///< axis of a face
   float spread = 0;            ///< rad around the axis
-  int bounds = 0;              ///< of an edge or corner; neither bounds nor axis: all directions
-  /// The cone is { n : n . bound <= 0 for every bound }; unit vectors along the surface.
+  /// Number of bounds of an edge or corner. Without bounds and axis, the cone has all directions.
+  int bounds = 0;
+  /// The cone is { n : n . bound <= 0 for every bound }; the bounds are unit vectors along the surface.
   std::array<Vec3f, max_bounds> bound = filled();
 
  private:

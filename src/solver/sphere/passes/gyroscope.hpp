@@ -5,8 +5,8 @@
 
 namespace bin_scenes::sphere {
 
-/// What it adds to the spin `w` over h seconds, by the implicit midpoint rule on Euler's equations in the body frame.
-/// Both the kinetic energy and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2).
+/// Returns the change of the angular velocity `w` over h seconds, by the implicit midpoint rule for Euler's equations
+/// in the body frame.
 inline Vec3f gyroscopic_change(const Body& b, const Vec3f& w, float h) {
   // Only the change is turned back to world axes: turning all of the spin would let |L| creep by a thousandth in ten
   // thousand sub-steps of single precision.

@@ -21,7 +21,8 @@
 namespace bin_scenes::sphere {
 
 using Lanes = float __attribute__((vector_size(32), aligned(32)));
-using LaneMask = std::int32_t __attribute__((vector_size(32), aligned(32)));  ///< of a comparison: -1 = true, 0 = false
+using LaneMask =
+    std::int32_t __attribute__((vector_size(32), aligned(32)));  ///< result of a comparison: -1 = true, 0 = false
 constexpr int lane_count = 8;
 
 inline Lanes all_lanes(float x) {

@@ -39,7 +39,7 @@ class Restitution {
 
  private:
   LaneMask hit(const ContactRows& c) const { return was_hit(c.approach, c.max_impulse > 0.0f, c.gap, h_, speed_); }
-  /// Which manifolds of a bundle have a contact that was hit and took part of the impact.
+  /// Returns which manifolds of a bundle have a contact that was hit and took part in the impact.
   LaneMask bouncing(const Bundle& bundle) const {
     LaneMask out{};
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) out |= hit(rows_[i]) & (rows_[i].max_impulse > 0.0f);

@@ -43,8 +43,8 @@ constexpr int cluster_size = SPHERE_CLUSTER, clusters_at_once = 8;
 /// Nodes at one resolution.
 struct Samples {
   std::vector<Vec3f> nodes;                              ///< in cluster order
-  std::vector<Cone> cones;                               ///< of the nodes
-  std::vector<Points<cluster_size>> node_points;         ///< the same, a cluster at a time
+  std::vector<Cone> cones;                               ///< normal cones of the nodes
+  std::vector<Points<cluster_size>> node_points;         ///< the same nodes, in groups of one cluster
   std::vector<Edge> edges;                               ///< in order of their first node's cluster, then creases
   std::vector<Vec3f> crease_ends;                        ///< counted on from the nodes
   std::vector<Ball> clusters;                            ///< nodes [16 c, 16 c + 16) and the edges that start there
@@ -54,7 +54,7 @@ struct Samples {
   float spacing = 0;                                     ///< longest edge piece (m)
   float face_spacing = 0;                                ///< mean distance between neighbours on faces (m)
   float sag = 0;                                         ///< m by which a curved face may bulge between its nodes
-  float radius = 0;  ///< of the nodes: 0 = points; a ball is one node of its own radius
+  float radius = 0;  ///< radius of the nodes: 0 for points; a ball is one node with its own radius
 };
 
 // Where nodes on edges would stand farther apart they could not stand for them: the edges belong to a curved face.

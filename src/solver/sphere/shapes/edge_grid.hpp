@@ -16,7 +16,7 @@ struct EdgeGrid {
   static constexpr float reach = SPHERE_EDGE_REACH;
 
   int row = 0, slice = 0;            ///< blocks along x, and of a layer along x and y
-  std::vector<std::uint32_t> first;  ///< by block, x fastest: where its list begins; one more at the end
+  std::vector<std::uint32_t> first;  ///< by block, x fastest: start of its list; with one more entry at the end
   std::vector<std::uint32_t> edges;  ///< the lists, each in ascending order
 
   /// The list at `point` (of the field's frame, anywhere): first and end of it in `edges`. Empty without a grid.

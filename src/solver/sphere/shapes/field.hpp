@@ -20,7 +20,7 @@ struct alignas(32) Points {
   Vec3f operator[](int i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// How points of one body are carried into the frame of another.
+/// The transform of points of one body into the frame of another.
 struct Carry {
   Mat3f rotation;
   Vec3f offset;

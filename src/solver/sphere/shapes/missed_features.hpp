@@ -6,7 +6,8 @@
 
 namespace bin_scenes::sphere {
 
-/// By how much (m) a curved face may rise above a node of it, as far as the node slides along it.
+/// Returns the largest height (m) by which a curved face may rise above a node, within the distance over which the node
+/// slides along it.
 double bulge(const Cone& cone, double face_spacing);
 
 /// Adds the vertices that stick out between the nodes by more than `most` (m). Where the folds of a bend lie about the

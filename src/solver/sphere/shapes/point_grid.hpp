@@ -39,7 +39,7 @@ class PointGrid {
   double cell_ = 1.0;
   Cell cells_ = {1, 1, 1};
   std::vector<std::size_t> order_;  ///< points, cell after cell
-  std::vector<std::size_t> first_;  ///< where each cell begins in it
+  std::vector<std::size_t> first_;  ///< start of each cell in the sorted points
 };
 
 }  // namespace bin_scenes::sphere

@@ -10,9 +10,9 @@ namespace bin_scenes::sphere {
 
 struct Draft {
   std::vector<Vec3> nodes;  ///< m
-  std::vector<Cone> cones;  ///< of the nodes
+  std::vector<Cone> cones;  ///< normal cones of the nodes
   std::vector<Edge> edges;
-  std::vector<std::uint32_t> at_vertex;  ///< by vertex of the mesh: the node that lies there, or `none`
+  std::vector<std::uint32_t> at_vertex;  ///< by vertex of the mesh: the node at the vertex, or `none`
 
   static constexpr std::uint32_t none = 0xffffffffu;
 

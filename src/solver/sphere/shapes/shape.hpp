@@ -11,7 +11,7 @@ struct Shape {
   Samples coarse, fine;
   Field field;
   Vec3f center = Vec3f::Zero();      ///< centre of mass in the model frame
-  Vec3f box_center = Vec3f::Zero();  ///< of the bounding box, body frame
+  Vec3f box_center = Vec3f::Zero();  ///< centre of the bounding box, body frame
   Vec3f box_half = Vec3f::Zero();
   float radius = 0;     ///< largest node distance from the centre of mass
   float diagonal = 0;   ///< m, of the model's bounding box
@@ -20,7 +20,7 @@ struct Shape {
   float wall = 0;       ///< m: of a slender rod its wall_thickness(), up to twice `thickness`; else `thickness`
   float volume = 0;
   Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame
-  std::vector<Flag> flags;                 ///< what the user should know of it
+  std::vector<Flag> flags;                 ///< remarks for the user
 };
 
 /// Collision shape of a part; `coarse` and `fine` are the numbers of nodes aimed at. The field's cell is `field_cell`

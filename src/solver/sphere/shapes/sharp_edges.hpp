@@ -13,9 +13,9 @@ namespace bin_scenes::sphere {
 /// An edge of the mesh and how its faces meet there.
 struct Fold {
   std::uint32_t a, b;                ///< a < b
-  std::array<std::size_t, 2> faces;  ///< where there are two of them, as in a closed mesh
+  std::array<std::size_t, 2> faces;  ///< the two faces of the edge, if there are two, as in a closed mesh
   bool closed;
-  double cosine;  ///< of the angle between the normals; -1 where there are not two
+  double cosine;  ///< cosine of the angle between the normals; -1 if there are not two faces
   bool convex;
 };
 
@@ -34,7 +34,7 @@ struct SharpEdge {
 
 struct SharpEdges {
   std::vector<SharpEdge> convex;  ///< in order of (a, b)
-  std::vector<bool> saddles;      ///< by vertex: whether a concave edge ends there, too
+  std::vector<bool> saddles;      ///< by vertex: whether a concave edge ends there as well
 };
 
 /// The folds by more than `angle` (rad). Concave edges cannot touch first.
