@@ -20,14 +20,15 @@ namespace bin_scenes {
 /// it itself.
 constexpr std::size_t most_parts_waiting = 100'000;
 
-/// Scenes of which `at_once` have room for their images: enough for all cores, and no more.
+/// Returns how many poured scenes may wait, if the images of `at_once` scenes fit into memory: enough for all cores,
+/// and no more.
 std::size_t scenes_waiting(std::size_t at_once);
 
 class Finishing {
  public:
   using Result = Generator::Result;
-  /// `finish` runs in any thread and for up to `at_once` scenes at once: their images have to fit into memory together.
-  /// `hand_on` runs in the thread that calls this class.
+  /// `finish` is called in any thread and for up to `at_once` scenes at the same time, whose images must fit into
+  /// memory together. `hand_on` is called in the thread that uses this class.
   Finishing(std::function<void(Result&)> finish, std::function<void(Result&&)> hand_on, std::size_t at_once)
       : finish_(std::move(finish)),
         hand_on_(std::move(hand_on)),

@@ -19,9 +19,10 @@ struct ContainedLimits {
   std::size_t bytes = std::size_t{4} << 30;  ///< memory beside what the parent has
 };
 
-/// `work` must not throw anything but std::bad_alloc and must need nothing but memory and files: no other thread of the
-/// parent lives on in the child. The child ends with the thread that waits for it, and at once when the work of that
-/// thread is no longer wanted: Error(cancelled). Throws an environment Error if no process can be started.
+/// Runs `work` in a child process. `work` must throw nothing but std::bad_alloc and use nothing but memory and files,
+/// because no other thread of the parent continues in the child. The child ends with the thread that waits for it, and
+/// at once if the work of that thread is cancelled: Error(cancelled). Throws an environment Error if no process can be
+/// started.
 Contained run_contained(const std::function<std::string()>& work, const ContainedLimits& limits);
 
 }  // namespace bin_scenes

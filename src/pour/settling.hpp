@@ -80,24 +80,25 @@ class Settling {
  public:
   explicit Settling(Pour::Finish finish) : finish_(finish) {}
 
-  /// A new settle begins, with its own clock.
+  /// Starts a new settle with its own clock.
   void start(Stage stage);
-  /// For a solver that has no stages: it is done when it has settled.
+  /// For a solver without stages: settling is done when the heap has settled.
   void ignore_stages() { finish_ = Pour::Finish::settled, ignored_ = true; }
-  /// The current stage goes on, and its clock starts again at 0.
+  /// Sets the clock of the present stage to 0.
   void start_clock();
-  /// Ages for which a transition at `time` may ask HeapView::still_for_less_than() (s).
+  /// Returns the ages (s) for which a transition at `time` may call HeapView::still_for_less_than().
   std::array<double, 4> ages(const HeapView& heap, double time) const;
-  /// Whether advance() would begin a stage.
+  /// Whether advance() would start a stage.
   bool will_change(const HeapView& heap, double time) const { return next(heap, time) != nullptr; }
   /// Applies the transitions at `time` (s since the start). Returns whether a stage began, the same one or another.
   bool advance(const HeapView& heap, double time);
 
   Stage stage() const { return stage_; }
-  /// The solver's phase in this stage. Friction that was reduced once stays reduced to the end.
+  /// Returns the phase of the solver in this stage. Friction that was reduced stays reduced until the end.
   Phase phase() const;
   bool done() const { return stage_ == Stage::done; }
-  /// Parts that moved within so many seconds before the last transition moved in the check that it ended.
+  /// Returns the duration (s) of the last check. Parts that moved within this time before the last transition moved in
+  /// that check.
   double checked_s() const { return checked_s_; }
   /// Whether parts that moved in the last check were not checked again.
   bool gave_up() const { return gave_up_; }

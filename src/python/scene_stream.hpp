@@ -11,16 +11,19 @@
 
 namespace bin_scenes::python {
 
-/// Scenes come in order of their index, and depend on request, seed and index alone, however many are made ahead.
+/// A stream of scenes in order of their index. They depend on request, seed and index only, however many are made
+/// ahead.
 class SceneStream {
  public:
-  /// @param ahead  scenes that wait at most, beside those in the making; 0: work rests while nobody waits in next()
+  /// @param ahead  largest number of finished scenes that wait, in addition to those in progress; 0: work pauses unless
+  /// next() is waiting
   SceneStream(std::shared_ptr<Session> session, const Request& request, std::size_t ahead, const Wanted& wanted);
   ~SceneStream() { stop(); }
   SceneStream(const SceneStream&) = delete;
   SceneStream& operator=(const SceneStream&) = delete;
 
-  /// The next scene; null behind the last one, and after stop(). Throws what making it threw; then it was the last.
+  /// Returns the next scene; null after the last one and after stop(). Throws the error that occurred while it was
+  /// made, which ends the stream.
   std::shared_ptr<SceneData> next(const Poll& poll);
   /// Cancels what is in the making, and waits for its end. The scenes that wait are dropped.
   void stop();

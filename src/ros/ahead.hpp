@@ -22,9 +22,11 @@ class Ahead {
   Ahead(const Ahead&) = delete;
   Ahead& operator=(const Ahead&) = delete;
 
-  /// The scene shown is `index` of this request: those after it are made. What was made for another request is dropped.
+  /// States that the present scene is `index` of this request. The scenes after it are made, and scenes for another
+  /// request are discarded.
   void follow(const Request& request, std::size_t index);
-  /// The next scene; waits for it if it is not there yet. Throws what making it threw, and Error(cancelled).
+  /// Returns the next scene, and waits for it if it is not finished. Throws the error that occurred while it was made,
+  /// or Error(cancelled).
   MadeScene take(const RunHooks& hooks);
   std::size_t ready() const;
 

@@ -11,13 +11,13 @@
 
 namespace bin_scenes {
 
-/// Those that were asked for, the best first. Throws an input Error for an id that is not there.
+/// Returns the requested grasps, the best first. Throws an input Error for an id that does not exist.
 std::vector<SceneGrasp> chosen_grasps(const SceneGrasps& all, const bin_scenes_msgs::GetGrasps::Request& asked);
 
 void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen, const SceneGrasps& all,
           const Request& request, const Frames& frames, const ros::Time& stamp);
 
-/// What each sensor sees of them: those that were found with images.
+/// Fills in which share of the contacts each sensor sees, for grasps that were found with images.
 void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen,
                  const std::vector<Sensor>& sensors);
 

@@ -18,16 +18,17 @@ namespace bin_scenes {
 /// process.
 RTCDevice embree_device();
 
-/// On one thread: how many there are must not decide how a tree is built, and the order of triangles in it decides
-/// between two that are hit at the same place.
+/// Builds a tree in one thread. The number of threads must not influence how a tree is built, because the order of its
+/// triangles decides between two that are hit at the same point.
 void commit(RTCScene scene);
 
-/// Normals of a triangle that stands for a bent surface: even between those of its corners, each of which is the mean,
-/// by area, of the faces around it that are nearly in line with its own. All in the mesh's frame.
+/// The normals of a triangle that approximates a curved surface: a linear interpolation of the normals at its corners.
+/// The normal at a corner is the mean, by area, of the surrounding faces that are nearly in line with the triangle. All
+/// values are in the frame of the mesh.
 struct SmoothNormals {
   Vec3 at_origin = Vec3::Zero();
   Mat3 slope = Mat3::Zero();  ///< 1/m
-  bool even = true;           ///< everywhere the face's own
+  bool even = true;           ///< whether the normal is that of the face everywhere
   Vec3 at(const Vec3& point) const { return at_origin + slope * point; }
 };
 

@@ -27,23 +27,24 @@ class WholeFolders;
 
 class SceneStore {
  public:
-  /// Checks the formats and that `directory` can be written, removes what killed runs left half-written, and makes
-  /// nothing yet.
-  /// @param mcap    whose MCAP files are written
-  /// @param verify  what is there counts only if the digests of its files agree too
+  /// Checks the formats, and that `directory` can be written. Removes what killed runs left incomplete. Makes no scene
+  /// yet.
+  /// @param mcap    version of the ROS messages in MCAP files
+  /// @param verify  whether existing scenes count only if the digests of their files agree
   SceneStore(const std::string& directory, const std::vector<std::string>& formats,
              McapProfile mcap = McapProfile::ros1, bool verify = false);
 
-  bool needs_sensors() const;  ///< some format shows nothing but what a sensor sees
+  bool needs_sensors() const;  ///< whether some format contains nothing but what a sensor sees
   bool needs_grasps() const;
   bool needs_images() const;  ///< some format holds what sensors see, if there are any
 
-  /// Scenes of the request that have a folder. Reads the directory: what is asked for may be far more.
+  /// Returns the indices of the request's scenes that have a folder. It reads the directory, because the request may
+  /// ask for far more scenes.
   std::set<std::size_t> indices(const Request& request) const;
   enum class Found { nothing, accepted, set_apart };
   /// Returns which files of scene `index` exist.
   Found find(std::size_t index, const Request& request) const;
-  /// Reasons of a scene that is there, set apart.
+  /// Returns the reasons of an existing scene that was set apart.
   std::vector<std::string> reasons(std::size_t index) const;
 
   /// Writes all folders of the scene under hidden names, in any thread and for several scenes at once, and lets its

@@ -17,26 +17,28 @@ namespace bin_scenes {
 class IndirectField {
  public:
   struct Setup {
-    int bounces = 0;      ///< 0: no indirect light
-    int samples = 16;     ///< least number of rays of a node
-    double error = 0.03;  ///< standard error of a node's light / Pattern::unit above which it gets more; 0: none does
+    int bounces = 0;   ///< 0: no indirect light
+    int samples = 16;  ///< smallest number of rays of a node
+    /// Standard error of a node's light / Pattern::unit above which it gets more rays; 0: no node does.
+    double error = 0.03;
   };
   /// A pattern converts light paths to channels. It adds three values for each channel: the channel itself, which is
   /// interpolated; its change when the ends of the paths move by steps[0] (m); and its change for steps[1].
   using Respond = std::function<void(const std::vector<Path>& paths, const Vec3* steps, float* channels)>;
   struct Pattern {
-    int channels;  ///< of `respond`
+    int channels;  ///< number of channels that `respond` adds to
     int growing;  ///< number of channels, from the first on, that are followed between nodes as the paths move with the
                   ///< pixel; the others are interpolated only
     Respond respond;
-    double unit = 0.0;  ///< light of which Setup::error is a share: typical direct light, as Path::weight; 0: none
+    double unit = 0.0;  ///< the light to which Setup::error is relative: typical direct light, in the unit of
+                        ///< Path::weight; 0: none
   };
 
-  /// Asks the lamp and the pattern's `respond` while it is made only.
+  /// Uses the lamp and the pattern's `respond` only during construction.
   IndirectField(const LitScene& scene, const View& view, const Setup& setup, const Pattern& pattern,
                 const Random& random);
 
-  /// The first `count` channels of a pixel; false and zeros if there is no light.
+  /// Returns the first `count` channels of a pixel; returns false, and zeros, if there is no light.
   bool at(std::size_t pixel, int count, float* channels) const;
 
  private:
@@ -48,11 +50,11 @@ class IndirectField {
   };
   struct Node {
     Face face;
-    float x, y;   ///< its place (pixel)
-    float reach;  ///< pixel, over which it is averaged with others
+    float x, y;   ///< position in the image (pixels)
+    float reach;  ///< pixels, distance over which it is averaged with other nodes
     bool lit;
   };
-  /// Nodes, and of each the channels that are followed with their growth to the right and down, and the others.
+  /// Nodes with their channels: those that are followed, with their changes to the right and down, and the others.
   struct Nodes {
     std::vector<Node> all;
     std::vector<float> followed, others;

@@ -25,7 +25,7 @@ namespace bin_scenes {
 
 struct Profiles {
   int width = 0, height = 0;                  ///< samples of a profile, profiles
-  std::vector<Validity> validity;             ///< row-major, as all that follow
+  std::vector<Validity> validity;             ///< row-major, like all images below
   std::vector<std::array<float, 3>> points;   ///< m, in the frame of the camera's given pose; NaN where not valid
   std::vector<std::array<float, 3>> normals;  ///< true, same frame
   std::vector<std::uint16_t> label;           ///< true, of the line that was found

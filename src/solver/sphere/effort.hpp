@@ -11,17 +11,17 @@ namespace bin_scenes::sphere {
 /// Effort of the heap that this world will become, when all parts that find room are in.
 int effort_to_come(const World& world, const WorldDef& def);
 
-/// Of the heaviest part that moves to the lightest.
+/// Returns the mass of the heaviest moving part / that of the lightest.
 float mass_ratio_of(const World& world);
 
-/// Sweeps that parts of unequal masses ask for, times the default: a sweep passes on as much of an impact as the light
-/// part that carries it can.
+/// Returns the factor of the number of sweeps that parts of unequal masses need: a sweep propagates only as much of an
+/// impact as the light part between two heavy ones can carry.
 int effort_of_masses(const World& world);
 
-/// Settings::push_speed with which a contact of the lightest part carries the heaviest one.
+/// Returns the value of Settings::push_speed with which a contact of the lightest part supports the heaviest one.
 float push_speed_of_masses(const World& world);
 
-/// Effort of the heap as it lies now.
+/// Returns the effort of the heap in its present state.
 int effort_of(const World& world);
 
 }  // namespace bin_scenes::sphere

@@ -9,7 +9,8 @@
 
 namespace bin_scenes::sphere {
 
-/// By (a, b), none twice; a before b, both there.
+/// Whether the manifolds are in ascending order of (a, b) without duplicates, with a < b, and whether both bodies
+/// exist.
 inline bool manifolds_ascend(const World& world) {
   std::pair<std::uint32_t, std::uint32_t> last{0, 0};
   for (const Manifold& m : world.manifolds) {
@@ -25,7 +26,8 @@ inline bool contacts_have_room(const World& world) {
   return each_is(world.manifolds, [](const Manifold& m) { return m.contacts.size() <= max_contacts; });
 }
 
-/// Of the manifolds to solve. The last color is that of all that found none of their own.
+/// Whether no two of the manifolds to solve share a moving body and a color. The last color is excepted, which holds
+/// the manifolds that fit into no other color.
 inline bool colors_share_no_body(const World& world) {
   std::vector<std::uint64_t> used(world.bodies.size(), 0);
   for (const std::uint32_t i : world.order) {
@@ -41,7 +43,7 @@ inline bool colors_share_no_body(const World& world) {
   return true;
 }
 
-/// Where bodies have poses at all.
+/// Whether all contact normals have unit length, for bodies whose poses are finite.
 inline bool normals_are_unit(const World& world) {
   return each_is(world.manifolds, [](const Manifold& m) {
     return each_is(m.contacts, [](const Contact& c) {
@@ -51,7 +53,8 @@ inline bool normals_are_unit(const World& world) {
   });
 }
 
-/// A body that has exploded has no pose, which the heap reports.
+/// Whether all orientations have unit length, for bodies whose poses are finite. A body that exploded has no pose,
+/// which the heap reports.
 inline bool orientations_are_unit(const World& world) {
   return each_is(world.bodies, [](const Body& b) {
     const float square = b.q.squaredNorm();

@@ -20,11 +20,11 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
-/// A body halfway through the step (StepPlan::half_way), where its contacts are found.
+/// A body at the time within the step at which its contacts are found (StepPlan::half_way).
 struct Placement {
   Vec3f x;
   Mat3f rotation;
-  Vec3f v = Vec3f::Zero(), w = Vec3f::Zero();  ///< with what gravity adds in the step
+  Vec3f v = Vec3f::Zero(), w = Vec3f::Zero();  ///< velocities including the change by gravity in the step
 
   Placement(const World& world, const Body& body) : x(body.x), rotation(body.rotation) {
     if (!body.moves()) return;

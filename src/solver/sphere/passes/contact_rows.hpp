@@ -170,32 +170,35 @@ struct Color {
   bool in_turn;
 };
 
-/// What the solve of a block works on. Kept for its memory alone.
+/// The working memory of the solve of a block. It is kept to avoid allocations.
 struct Scratch {
-  std::vector<Motion> motions;  ///< of the block's bodies, and behind them of what does not move: make_bundles
-  std::vector<char> free;       ///< bodies that nothing is near
-  std::vector<char> slides;     ///< bodies with a contact that slips; and behind them what does not move
-  std::vector<float> speeds;    ///< of bodies when the sub-step begins (m/s), turns counted at their radius
+  /// Motions of the block's bodies, followed by those of static bodies: see make_bundles().
+  std::vector<Motion> motions;
+  std::vector<char> free;    ///< whether nothing is near a body
+  std::vector<char> slides;  ///< whether a body has a contact that slips; static bodies follow
+  /// m/s, speeds of bodies at the start of the sub-step, including rotation at their radius.
+  std::vector<float> speeds;
   std::vector<Bundle> bundles;  ///< in order of color
   std::vector<Color> colors;
   std::vector<ContactRows> rows;
 };
 
-/// Bundles that one thread takes at once. Even, so that paired ones stay together.
+/// Number of bundles that a thread processes at a time. It is even, so that paired bundles stay together.
 constexpr std::uint32_t bundles_per_piece = 4;
 
-/// The manifolds of a block in bundles, in order of color; the longest of a color first, so that lanes are filled. What
-/// does not move lies behind the block's bodies, once for each piece of a color: no two threads write the same.
-/// Returns how often.
+/// Arranges the manifolds of a block in bundles, in order of color; within a color, the longest come first, so that
+/// lanes are filled. Static bodies come after all moving bodies of the block, once for each piece of a color, so that
+/// no two threads write to the same one. Returns the number of such pieces.
 std::uint32_t make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
                            std::vector<Color>& colors, std::vector<ContactRows>& rows);
 /// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
 /// seconds. Also notes the contacts' normals in world axes.
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);
-/// Levers, gaps and inertia of manifolds that are hit, of where their bodies are now (shared/sphere/row.h).
+/// Computes lever arms, gaps and inertia of manifolds that are hit, for the present positions of their bodies
+/// (shared/sphere/row.h).
 void refresh_levers(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
                     std::vector<ContactRows>& rows);
-/// Back into the contacts, as forces.
+/// Stores the impulses in the contacts as forces.
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);
 
 }  // namespace bin_scenes::sphere

@@ -69,10 +69,11 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
 /// A ball (of that radius, m) needs one node, its centre.
 Samples ball_samples(float radius);
 
-/// Raise it whenever make_samples() makes others of the same part: older cache files are then passed over.
+/// Version of the samples in cache files. Increase it whenever make_samples() returns other samples for the same part,
+/// so that older files are ignored.
 constexpr int samples_format = 10;
 
-/// For streams of bytes (core/byte_stream.hpp).
+/// Lists the members for byte streams (core/byte_stream.hpp).
 template <class Stream>
 void members(Stream& stream, Samples& samples);
 
