@@ -2,6 +2,7 @@
 /// from it.
 #include "config/distribution.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "config/suggest.hpp"
 #include "config/views.hpp"
 
@@ -236,6 +237,8 @@ std::string flow_text(const YAML::Node& node) {
 }
 
 double Distribution::number(Random& random) const {
+  BIN_SCENES_ASSERT(kind != Kind::uniform || a <= b);
+  BIN_SCENES_ASSERT(kind != Kind::normal || (b >= 0.0 && !(min && max && *min > *max)));
   if (kind == Kind::uniform && whole) {
     return a + static_cast<double>(random.below(static_cast<std::uint64_t>(b - a) + 1));
   }
@@ -261,6 +264,7 @@ std::string Distribution::draw(Random& random, const YAML::Node& own) const {
     case Kind::choice: {
       double sum = 0.0;
       for (const double weight : weights) sum += weight;
+      BIN_SCENES_ASSERT(weights.size() == values.size() && sum > 0.0);
       double left = random.uniform() * sum;
       for (std::size_t i = 0; i < values.size(); ++i) {
         if (left < weights[i]) return values[i];
@@ -280,6 +284,7 @@ std::string Distribution::draw(Random& random, const YAML::Node& own) const {
       moved.position += move * offset;
       moved.orientation =
           (Quat(Eigen::AngleAxisd(random.uniform(-angle, angle), axis)) * pose.orientation).normalized();
+      BIN_SCENES_ASSERT(is_rigid(moved) && (moved.position - pose.position).norm() <= move * (1.0 + 1e-12));
       return text_of(moved);
     }
     case Kind::view: {

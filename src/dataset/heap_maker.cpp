@@ -3,6 +3,7 @@
 #include "dataset/heap_maker.hpp"
 
 #include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
@@ -67,6 +68,9 @@ std::vector<int> highest(const Scene& scene, std::size_t count) {
   std::stable_sort(parts.begin(), parts.end(),
                    [](const ScenePart* a, const ScenePart* b) { return a->pose.position.z() > b->pose.position.z(); });
   std::vector<int> ids;
+  BIN_SCENES_ASSERT(std::is_sorted(parts.begin(), parts.end(), [](const ScenePart* a, const ScenePart* b) {
+    return a->pose.position.z() > b->pose.position.z();
+  }));
   for (std::size_t i = 0; i < std::min(count, parts.size()); ++i) ids.push_back(parts[i]->id);
   return ids;
 }
@@ -114,6 +118,9 @@ HeapRecord HeapMaker::make(std::size_t heap) {
     for (std::size_t scene = first; scene < first + made.scenes; ++scene)
       record.scenes.push_back(record_of_scene(folder_, scene, *scene_in(folder_.scene(scene))));
   }
+  BIN_SCENES_ASSERT(record.accepted == !record.scenes.empty() && record.rejected.size() <= plan_.attempts);
+  BIN_SCENES_ASSERT(
+      each_is(record.scenes, [&](const SceneRecord& s) { return s.scene / (plan_.depletion.steps + 1) == heap; }));
   record.wall_s = ms_since(begin) / 1e3;
   record.cpu_s = cpu_seconds() - cpu_before;
   record.memory_mb = resident_mb();

@@ -1,5 +1,6 @@
 #include "dataset/merge.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "core/read_file.hpp"
 #include "dataset/bop_root.hpp"
@@ -102,6 +103,7 @@ Merged merge_datasets(const std::vector<std::string>& shares, const std::string&
   const IndexCounts counts = index.counts();
   merged.scenes = counts.scenes;
   merged.rejected = counts.rejected;
+  BIN_SCENES_ASSERT(known.size() <= facts.heaps);
   merged.missing = facts.heaps - known.size();
   for (const char* models : {"models", "models_eval"})
     take_over(folders[0].root / "bop" / models, to.root / "bop" / models);

@@ -1,8 +1,11 @@
 #include "dataset/record.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace bin_scenes {
 
@@ -11,6 +14,7 @@ namespace {
 constexpr std::size_t bins = 20;
 
 void count(std::vector<int>& histogram, double share) {
+  BIN_SCENES_ASSERT(histogram.size() == bins);
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(bins);
   ++histogram[std::min(bins - 1, static_cast<std::size_t>(place))];
 }
@@ -102,6 +106,8 @@ nlohmann::json summary_of(const SceneFile& scene) {
     std::sort(heights.begin(), heights.end());
     fill = heights[static_cast<std::size_t>(0.95 * static_cast<double>(heights.size() - 1))] / scene.bin.inner_size.z();
   }
+  BIN_SCENES_ASSERT(heights.size() <= scene.parts.size() &&
+                    std::accumulate(tilt.begin(), tilt.end(), std::size_t{0}) == heights.size());
   const Report& report = scene.report;
   return {{"parts", heights.size()},
           {"not_poured", report.not_poured.size()},

@@ -2,6 +2,7 @@
 /// the first worker starts.
 #include "dataset/run.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "dataset/bop_root.hpp"
 #include "dataset/heap_maker.hpp"
@@ -51,6 +52,7 @@ void check_disk(const Plan& plan, const DataFolder& folder, std::size_t heaps_le
   std::error_code unknown;
   const fs::space_info space = fs::space(folder.root, unknown);
   if (unknown) return;
+  BIN_SCENES_ASSERT(heaps_left <= plan.heaps);
   const double scenes = static_cast<double>(heaps_left * (plan.depletion.steps + 1));
   const double needed = scenes * estimate_scene_bytes(plan), free = static_cast<double>(space.available);
   const std::string figures = "the scenes need about " + size_text(needed) + ", " + size_text(free) + " are free";

@@ -1,5 +1,6 @@
 #include "generate/finishing.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 
 #include <tbb/task_arena.h>
@@ -10,6 +11,7 @@ namespace bin_scenes {
 
 std::size_t scenes_waiting(std::size_t at_once) {
   const auto cores = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  BIN_SCENES_ASSERT(cores >= 1);
   return std::clamp<std::size_t>(at_once, 2, 2 * cores);
 }
 
@@ -31,6 +33,7 @@ void Finishing::finish(Entry& entry) {
   } catch (...) {
     entry.failed = std::current_exception();
   }
+  BIN_SCENES_ASSERT(waiting_ >= parts);
   waiting_ -= parts;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -41,6 +44,7 @@ void Finishing::finish(Entry& entry) {
 }
 
 void Finishing::wait_for_first() {
+  BIN_SCENES_ASSERT(!entries_.empty());
   const std::shared_ptr<Entry> entry = entries_.begin()->second;
   finish(*entry);
   std::unique_lock<std::mutex> lock(mutex_);
@@ -48,6 +52,7 @@ void Finishing::wait_for_first() {
 }
 
 void Finishing::add(std::size_t place, Scene&& scene) {
+  BIN_SCENES_ASSERT(place >= next_ && entries_.count(place) == 0);  // a scene is added once, and before it is handed on
   const auto entry = entries_[place] = std::make_shared<Entry>();
   entry->result.scene = std::move(scene);
   waiting_ += entry->result.scene.parts.size();

@@ -1,5 +1,6 @@
 /// Estimates the bytes of models, bodies, pairs and images from counts, before anything large is allocated. Where a
 /// model is not loaded yet, a usual one stands for it.
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
@@ -146,6 +147,7 @@ double image_bytes(const Request& request) {
 
 std::size_t scenes_seen_at_once(const Request& request, double estimate) {
   const double one = std::max(1.0, image_bytes(request));
+  BIN_SCENES_ASSERT(std::isfinite(one) && std::isfinite(estimate));
   return 1 + static_cast<std::size_t>(std::clamp((request.memory_budget - estimate) / one, 0.0, 1e6));
 }
 
@@ -173,6 +175,7 @@ double estimate_memory(const LoadedRequest& loaded) {
   const double grid = thesis ? 8.0 * std::pow(request.solver.thesis.grid_size, 3) : 0.0;
   const double program = program_bytes + (thesis ? device_bytes : 0.0);
   const double apart = program + bodies + pixels + models + grid, total = apart + overlaps;
+  BIN_SCENES_ASSERT(std::isfinite(total) && total >= program && overlaps >= 0.0);
   if (total > request.memory_budget) {
     const bool within_each_other = apart <= request.memory_budget;
     throw input_error(

@@ -1,5 +1,6 @@
 #include "generate/model_store.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "generate/bin_walls.hpp"
 #include "grasp/finger_boxes.hpp"
@@ -44,6 +45,7 @@ PartModelPtr load_checked(const std::string& path, const std::string& sha256, co
 
 void check_models(const LoadedRequest& loaded) {
   const auto& [request, parts, bin] = loaded;
+  BIN_SCENES_ASSERT(parts.size() == request.parts.size() && (bin != nullptr) == (request.bin.kind == Bin::Kind::mesh));
   if (bin) {
     double largest = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -109,6 +111,7 @@ void ModelStore::keep(std::map<std::string, PartModelPtr>&& used) {
     if (std::find(order.begin(), order.end(), key) == order.end()) order.push_back(key);
   models_ = std::move(used);
   order_ = std::move(order);
+  BIN_SCENES_ASSERT(models_.size() == order_.size());
 }
 
 }  // namespace bin_scenes

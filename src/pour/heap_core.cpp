@@ -41,6 +41,7 @@ constexpr double hand_masses =
 /// Makes a world with the bodies that are in the bin. While parts enter, the walls of a box are raised to hold them.
 void HeapCore::make_world(bool raised_walls, const std::vector<std::size_t>& lifted) {
   WorldDef def = plan_->world;
+  def.scene = static_cast<std::int64_t>(index_);
   lifts_ = !lifted.empty();
   kept_.clear();
   kept_forces_.clear();

@@ -1,5 +1,6 @@
 #include "bin_scenes/pour/pour.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/pour/heap.hpp"
 
 #include <cstring>
@@ -29,6 +30,8 @@ WorldDef world_of(const LoadedRequest& loaded) {
     body.fixed = line.fixed;
     world.bodies.insert(world.bodies.end(), line.count, body);
   }
+  BIN_SCENES_ASSERT(world.bodies.size() == request.part_count() && world.parts.size() == request.parts.size());
+  BIN_SCENES_ASSERT(each_is(world.bodies, [](const BodyDef& body) { return body.mass > 0.0 && body.friction >= 0.0; }));
   return world;
 }
 

@@ -1,6 +1,7 @@
 /// Walks the trees of two meshes together down to pairs of triangles and finds where edges of one pierce the other.
 #include "crossings.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "core/disjoint_sets.hpp"
 
 #include <algorithm>
@@ -97,6 +98,7 @@ std::optional<Crossing> crossing(const Facet& s, const Facet& t, double toleranc
   pierce(s.points, hs, t, tolerance, points);
   pierce(t.points, ht, s, tolerance, points);
   if (points.count == 0) return std::nullopt;
+  BIN_SCENES_ASSERT(points.sum.allFinite() && points.count <= 12);  // six edges, each with its end and a point inside
   return Crossing{points.sum / points.count, points.box, {s.triangle, t.triangle}};
 }
 
@@ -128,6 +130,9 @@ std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Po
   }
   // Not in the order of the walk, which is a matter of rounding.
   std::sort(found.begin(), found.end(), [](const Crossing& s, const Crossing& t) { return s.triangles < t.triangles; });
+  BIN_SCENES_ASSERT(std::adjacent_find(found.begin(), found.end(), [](const Crossing& s, const Crossing& t) {
+                      return !(s.triangles < t.triangles);
+                    }) == found.end());  // each pair of leaves is visited once
   return found;
 }
 
@@ -159,6 +164,8 @@ std::vector<std::vector<std::size_t>> connected(const std::vector<Crossing>& cro
     }
     groups[group_of[r]].push_back(i);
   }
+  BIN_SCENES_ASSERT(
+      each_is(groups, [](const std::vector<std::size_t>& group) { return !group.empty() && ascends(group); }));
   return groups;
 }
 

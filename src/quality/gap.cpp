@@ -2,6 +2,7 @@
 /// overlaps counts as support by the direction of the overlap.
 #include "gap.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "core/in_parallel.hpp"
 #include "tree_pair.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double clear = 4e-9;    // / smaller diagonal: what has been moved apart stays so, in spite of rounding
 constexpr double upwards = 1e-6;  // slope of a path out above which it leads up, off something that holds
-constexpr int ways_out = 4;       // that are taken one after the other where parts overlap in several places
+constexpr int most_exits = 4;     // that are taken one after the other where parts overlap in several places
 
 /// Walls of a box bin up to the rim, and the rim, which goes on outwards far beyond any part that did not escape.
 Mesh walls(const Bin& bin) {
@@ -44,6 +45,9 @@ class Falls {
   Falls(const std::vector<Placed>& placed, const std::vector<Overlapping>& overlaps, const Request& request,
         const MeshQuery* bin_mesh, const Vec3& down)
       : placed_(placed), bin_(request.bin), bin_mesh_(bin_mesh), down_(down), overlaps_(placed.size()) {
+    BIN_SCENES_ASSERT(is_unit(down));
+    BIN_SCENES_ASSERT(each_is(
+        overlaps, [&](const Overlapping& o) { return o.a < o.b && o.b < placed.size() && o.found.depth >= 0.0; }));
     for (const Overlapping& o : overlaps) {
       overlaps_[o.a].push_back({o.b, -o.found.depth * o.found.direction});
       overlaps_[o.b].push_back({o.a, o.found.depth * o.found.direction});
@@ -106,7 +110,7 @@ class Falls {
     const double slack = clear * std::min(a.diagonal, b.diagonal);
     Pose pose = a.part->pose;
     Vec3 out = neighbour.out;
-    for (int k = 0; k < ways_out; ++k) {
+    for (int k = 0; k < most_exits; ++k) {
       pose.position += out + slack * out.normalized();
       const Penetration left = penetration(*a.query, pose, *b.query, b.part->pose);
       if (left.depth <= 0.0) return free_distance(*a.query, pose, *b.query, b.part->pose, down_, limit);
@@ -161,6 +165,7 @@ std::vector<double> free_falls(const std::vector<Placed>& placed, const std::vec
   in_parallel(placed.size(), [&](std::size_t i) {
     if (placed[i].part->state == PartState::resting) distances[i] = falls.of(i);
   });
+  BIN_SCENES_ASSERT(each_is(distances, [](double fall) { return fall >= 0.0; }));
   return distances;
 }
 

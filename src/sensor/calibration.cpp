@@ -1,5 +1,6 @@
 #include "bin_scenes/sensor/calibration.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
@@ -51,6 +52,7 @@ void err_in_pose(const CalibrationSettings& sigma, Random draw, Sensor& device) 
   const Quat turned = turn.norm() > 0.0 ? Quat(Eigen::AngleAxisd(turn.norm(), turn.normalized())) : Quat::Identity();
   const Pose moved = *device.pose * Pose{shift, turned} * device.pose->inverse();
   for (std::optional<Pose>* pose : {&device.pose, &device.projector.pose, &device.laser.pose}) *pose = moved * **pose;
+  BIN_SCENES_ASSERT(is_rigid(moved) && is_rigid(*device.pose));
 }
 
 /// Without triangulation the range along the ray stays, but for its offset.
@@ -73,6 +75,7 @@ void round_depths(RangeImage& image, double unit) {
 }  // namespace
 
 Sensor true_device(const std::vector<Sensor>& sensors, std::size_t number, std::uint64_t seed) {
+  BIN_SCENES_ASSERT(number < sensors.size() && sensors[number].pose && sensors[number].k.size() == 9);  // resolved()
   Sensor device = sensors.at(number);
   const auto sigma = device.settings.of<CalibrationSettings>();
   if (!sigma.any()) return device;

@@ -1,5 +1,6 @@
 #include "bin_scenes/sensor/filter.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "core/in_parallel.hpp"
 #include "sensor/smoothing.hpp"
 
@@ -46,10 +47,21 @@ void take_outliers(const OutlierFilter& settings, RangeImage& image) {
     if (out[i]) take_away(image, i, Validity::outlier);
 }
 
+/// Whether exactly the valid pixels have a depth.
+bool validity_agrees(const RangeImage& image) {
+  for (std::size_t i = 0; i < image.depth.size(); ++i)
+    if ((image.validity[i] == 0) != !std::isnan(image.depth[i])) return false;
+  return true;
+}
+
 }  // namespace
 
 void filter(const FilterSettings& settings, RangeImage& image) {
   if (!settings.any()) return;
+  BIN_SCENES_ASSERT(image.depth.size() ==
+                    static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  BIN_SCENES_ASSERT(image.label.size() == image.depth.size() && image.snr.size() == image.depth.size());
+  BIN_SCENES_ASSERT(image.validity.size() == image.depth.size());
   // An exact image is its own truth until something is taken from it.
   if (image.truth_depth.empty()) image.truth_depth = image.depth;
   if (image.truth_label.empty()) image.truth_label = image.label;
@@ -57,6 +69,7 @@ void filter(const FilterSettings& settings, RangeImage& image) {
     if (!std::isnan(image.depth[i]) && image.snr[i] < settings.snr) take_away(image, i, Validity::dark);
   if (settings.outlier.neighbours > 0) take_outliers(settings.outlier, image);
   if (settings.smoothing.sigma > 0.0) smooth(settings.smoothing, image);
+  BIN_SCENES_ASSERT(validity_agrees(image));
 }
 
 }  // namespace bin_scenes

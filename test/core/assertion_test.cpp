@@ -2,9 +2,13 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/gl/buffer.hpp"
 #include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/pour/contact_action.hpp"
+#include "bin_scenes/pour/pour.hpp"
 #include "bin_scenes/pour/rest_watch.hpp"
 #include "bin_scenes/quality/quality.hpp"
 #include "bin_scenes/scene/report.hpp"
+#include "bin_scenes/sensor/calibration.hpp"
+#include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "part/shapes.hpp"
@@ -67,6 +71,89 @@ TEST_F(AssertionDeath, ImageThatLacksARow) {
   image.height = 3;
   image.depth.resize(8);
   EXPECT_DEATH(points_of(image), "image.depth.size\\(\\) == width \\* height \\(range_image.cpp");
+}
+
+TEST_F(AssertionDeath, NamesSceneStepAndPairAsFarAsTheyAreKnown) {
+  const auto fail = [] { BIN_SCENES_ASSERT(1 > 2); };
+  EXPECT_DEATH(fail(), "assertion failed: 1 > 2 \\(assertion_test.cpp:[0-9]+\\)\n");
+  const AssertionScope scene({7});
+  EXPECT_DEATH(fail(), "in scene 7\n");
+  const AssertionScope step({-1, 120});
+  {
+    const AssertionScope pair({-1, -1, 3, 17});
+    EXPECT_DEATH(fail(), "in scene 7, step 120, pair 3 and 17\n");
+    EXPECT_DEATH(std::thread(fail).join(), "cpp:[0-9]+\\)\n") << "another thread works on something else";
+  }
+  const AssertionScope bin({-1, -1, 3});
+  EXPECT_DEATH(fail(), "in scene 7, step 120, pair 3 and the bin\n");
+}
+
+/// A filter that is on, and the image of two pixels that it gets.
+struct Filtered : AssertionDeath {
+  Filtered() {
+    settings.snr = 1.0;
+    image.width = 2, image.height = 1;
+    image.depth = {1.0f, std::nanf("")};
+    image.label = {0, 0};
+    image.snr = {5.0f, 0.0f};
+    image.validity = {0, 1};
+  }
+  FilterSettings settings;
+  RangeImage image;
+};
+
+TEST_F(Filtered, ImagesOfOtherSizes) {
+  filter(settings, image);
+  image.snr.pop_back();
+  EXPECT_DEATH(filter(settings, image), "image.snr.size\\(\\) == image.depth.size\\(\\) \\(filter.cpp");
+}
+
+TEST_F(Filtered, DepthOfAPixelThatIsNotValid) {
+  image.validity[0] = 4;
+  EXPECT_DEATH(filter(settings, image), "validity_agrees\\(image\\) \\(filter.cpp");
+}
+
+TEST_F(AssertionDeath, SensorWithoutItsPose) {
+  EXPECT_DEATH(true_device({Sensor()}, 0, 1), "sensors\\[number\\].pose.*calibration.cpp");
+}
+
+/// Two boxes, and a contact between them.
+struct Contacts : AssertionDeath {
+  Contacts() {
+    loaded.request.parts.resize(1);
+    loaded.request.parts[0].count = 2;
+    loaded.parts = {PartModel::from_mesh(test::box_mesh({0.1, 0.1, 0.1}), "box")};
+    force.b = 1;
+    force.normal = Vec3::UnitZ();
+    force.point = force.force = Vec3::Zero();
+  }
+  LoadedRequest loaded;
+  std::vector<BodyState> states = std::vector<BodyState>(2);
+  ContactForce force;
+};
+
+TEST_F(Contacts, StatesOfAnotherScene) {
+  contacts_of({force}, states, states, loaded);
+  states.emplace_back();
+  EXPECT_DEATH(contacts_of({force}, {}, states, loaded), "now_.size\\(\\) == models_.size.*contact_action.cpp");
+}
+
+TEST_F(Contacts, BodyBeyondTheLast) {
+  force.b = 2;
+  EXPECT_DEATH(contacts_of({force}, states, states, loaded), "force.b < .*contact_action.cpp");
+}
+
+TEST_F(Contacts, NormalThatIsNotUnit) {
+  force.normal *= 1.01;
+  EXPECT_DEATH(contacts_of({force}, states, states, loaded), "is_unit\\(force.normal\\) \\(contact_action.cpp");
+}
+
+TEST_F(AssertionDeath, PartWithoutMass) {
+  LoadedRequest loaded;
+  loaded.request.parts.resize(1);
+  loaded.request.parts[0].mass = 0.0;
+  loaded.parts = {PartModel::from_mesh(test::box_mesh({0.1, 0.1, 0.1}), "box")};
+  EXPECT_DEATH(world_of(loaded), "body.mass > 0.0.*pour.cpp");
 }
 
 TEST_F(AssertionDeath, ModelThatCannotMeasure) {

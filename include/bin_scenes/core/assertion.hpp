@@ -9,12 +9,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 namespace bin_scenes {
 
 /// Whether BIN_SCENES_ASSERTIONS was set when the process started.
 extern const bool assertions_on;
+
+/// What a thread works on, for the message of a failed assertion. -1 stands for unknown, or the bin as `b` of a pair.
+struct AssertionPlace {
+  std::int64_t scene = -1;      ///< index of the scene
+  std::int64_t step = -1;       ///< number of the solver's step, from 1
+  std::int64_t a = -1, b = -1;  ///< the pair of parts or bodies
+};
+
+/// Sets the place of this thread until the end of the scope, if assertions are on. Values of -1 keep those of the
+/// enclosing scope.
+class AssertionScope {
+ public:
+  explicit AssertionScope(const AssertionPlace& place) {
+    if (assertions_on) enter(place);
+  }
+  ~AssertionScope() {
+    if (assertions_on) leave();
+  }
+  AssertionScope(const AssertionScope&) = delete;
+  AssertionScope& operator=(const AssertionScope&) = delete;
+
+ private:
+  void enter(const AssertionPlace& place);
+  void leave();
+  AssertionPlace outer_;
+};
+
 /// Prints the condition, its place, and the scene and pair that are being worked on, and aborts.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line);
 

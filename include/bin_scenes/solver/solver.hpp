@@ -45,6 +45,7 @@ struct WorldDef {
   /// m, height of the walls of a box above the floor; while parts enter, pour makes them higher than bin.inner_size.z
   double wall_height = 0.0;
   Vec3 gravity = Vec3(0, 0, -9.81);
+  std::int64_t scene = -1;  ///< index of the scene, which only messages of failed assertions use; -1: none
 };
 
 /// Motion of the frame in which poses are given, which is the frame of the bin. Bodies in a moving frame experience
@@ -86,6 +87,7 @@ struct ContactForce {
   int a = 0, b = -1;   ///< indices of the bodies; b is -1 for the bin
   Vec3 point, normal;  ///< m; the unit normal points from a to b
   Vec3 force;          ///< N, the force on b including friction; the opposite force acts on a
+  double gap = 0.0;    ///< m, distance of the surfaces along the normal; negative where they overlap
 };
 
 /// The deepest contact over an interval of time, by the contact depths of the solver.

@@ -1,13 +1,16 @@
 #include "sensor/models/noise_field.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "core/in_parallel.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace bin_scenes {
 
 std::vector<float> correlated_noise(int width, int height, double window, const Random& random) {
   // A box of w pixels has the variance (w^2 - 1) / 12: the Gaussian of the same width.
+  BIN_SCENES_ASSERT(width > 0 && height > 0 && std::isfinite(window));
   const double sigma = std::sqrt(std::max(window * window - 1.0, 0.0) / 12.0);
   const int reach = static_cast<int>(std::ceil(3.0 * sigma));
   std::vector<float> kernel;
@@ -17,6 +20,7 @@ std::vector<float> correlated_noise(int width, int height, double window, const 
     square += kernel.back() * kernel.back();
   }
   for (float& k : kernel) k /= static_cast<float>(std::sqrt(square));  // keeps the variance of white noise
+  BIN_SCENES_ASSERT(std::abs(std::inner_product(kernel.begin(), kernel.end(), kernel.begin(), 0.0) - 1.0) < 1e-4);
 
   // White noise over the image and a rim of the kernel's reach: rows first, then columns.
   const int wide = width + 2 * reach, high = height + 2 * reach;

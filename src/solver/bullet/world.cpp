@@ -347,9 +347,13 @@ std::vector<ContactForce> World::contact_forces() const {
                                 point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
                                 point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
       // Bullet reports what acts on its first body.
-      ContactForce f{a, b, from_bt(point.getPositionWorldOnA()) / scale_, -from_bt(point.m_normalWorldOnB),
-                     -from_bt(impulse) / (scale_ * sub_step_)};
-      if (f.a < 0) f = {f.b, -1, f.point, -f.normal, -f.force};
+      ContactForce f{a,
+                     b,
+                     from_bt(point.getPositionWorldOnA()) / scale_,
+                     -from_bt(point.m_normalWorldOnB),
+                     -from_bt(impulse) / (scale_ * sub_step_),
+                     point.getDistance() / scale_};
+      if (f.a < 0) f = {f.b, -1, f.point, -f.normal, -f.force, f.gap};
       if (f.a >= 0) forces.push_back(f);
     }
   }

@@ -44,6 +44,7 @@ std::vector<Plane> planes_of(const Bin& bin) {
 World make_world(const WorldDef& def, const SphereSettings& settings,
                  const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base) {
   World w;
+  w.scene = def.scene;
   w.settings = base;
   w.settings.sub_steps = settings.sub_steps;
   w.settings.cut_steps = base.cut_steps && settings.cut_steps;
@@ -203,8 +204,9 @@ std::vector<ContactForce> forces_of(const World& world, std::size_t bodies) {
       if (c.normal_force <= 0) continue;
       const bool field_of_a = c.feature >> 31;
       const Vec3f normal = field_of_a ? Vec3f(a.q * c.local_normal) : b ? Vec3f(b->q * c.local_normal) : c.local_normal;
-      forces.push_back({static_cast<int>(m.a), named(m.b), Vec3f(a.x + a.q * c.anchor_a).cast<double>(),
-                        normal.cast<double>(), Vec3f(c.normal_force * normal + c.friction_force).cast<double>()});
+      const Vec3f on_a = a.x + a.q * c.anchor_a, on_b = b ? Vec3f(b->x + b->q * c.anchor_b) : c.anchor_b;
+      forces.push_back({static_cast<int>(m.a), named(m.b), on_a.cast<double>(), normal.cast<double>(),
+                        Vec3f(c.normal_force * normal + c.friction_force).cast<double>(), normal.dot(on_b - on_a)});
     }
   }
   return forces;

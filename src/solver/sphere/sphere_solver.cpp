@@ -169,19 +169,7 @@ class SphereSolver final : public Solver {
     p.add("color_manifolds", s.color_manifolds);
     p.add("solve", s.solve);
     p.add("update_sleep", s.update_sleep);
-    const Counters& c = world.counters;
-    p.count("steps", c.steps);
-    p.count("body_steps_in_free_fall", c.free_steps);
-    p.count("body_steps_asleep", c.asleep_steps);
-    p.count("pairs", c.pairs);
-    p.count("pairs_recycled", c.pairs_recycled);
-    p.count("pairs_asleep", c.pairs_asleep);
-    p.count("pairs_culled", c.pairs_culled);
-    p.count("clusters_tested", c.clusters_tested);
-    p.count("nodes_tested", c.nodes_tested);
-    p.count("nodes_possible", c.nodes_possible);
-    p.count("contacts", c.contacts);
-    p.count("contacts_reduced", c.dropped);
+    Counters::each([&](const char* name, std::uint64_t Counters::*member) { p.count(name, world.counters.*member); });
   }
   void collect(const World& world) { add(profile_, world); }
 

@@ -21,8 +21,9 @@ void timed(void (*pass)(World&), World& world, double& ms) {
 }  // namespace
 
 void step(World& world) {
-  BIN_SCENES_ASSERT(world.settings.time_step > 0 && manifolds_ascend(world));
   ++world.counters.steps;
+  const AssertionScope place({world.scene, static_cast<std::int64_t>(world.counters.steps)});
+  BIN_SCENES_ASSERT(world.settings.time_step > 0 && manifolds_ascend(world));
   world.clock += world.settings.time_step;
   bool any_moves = false;
   for (const Body& b : world.bodies) {

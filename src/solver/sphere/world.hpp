@@ -173,12 +173,24 @@ struct Counters {
   std::uint64_t steps = 0, free_steps = 0, asleep_steps = 0, pairs = 0, pairs_recycled = 0, pairs_asleep = 0,
                 pairs_culled = 0, clusters_tested = 0, nodes_tested = 0, nodes_possible = 0, contacts = 0, dropped = 0;
 
+  /// Calls visit(name in the profile, member) for each counter: the only list of them.
+  template <class Visit>
+  static void each(Visit&& visit) {
+    visit("steps", &Counters::steps);
+    visit("body_steps_in_free_fall", &Counters::free_steps);
+    visit("body_steps_asleep", &Counters::asleep_steps);
+    visit("pairs", &Counters::pairs);
+    visit("pairs_recycled", &Counters::pairs_recycled);
+    visit("pairs_asleep", &Counters::pairs_asleep);
+    visit("pairs_culled", &Counters::pairs_culled);
+    visit("clusters_tested", &Counters::clusters_tested);
+    visit("nodes_tested", &Counters::nodes_tested);
+    visit("nodes_possible", &Counters::nodes_possible);
+    visit("contacts", &Counters::contacts);
+    visit("contacts_reduced", &Counters::dropped);
+  }
   Counters& operator+=(const Counters& c) {
-    steps += c.steps, free_steps += c.free_steps, asleep_steps += c.asleep_steps, pairs += c.pairs,
-        pairs_recycled += c.pairs_recycled;
-    pairs_asleep += c.pairs_asleep, pairs_culled += c.pairs_culled, clusters_tested += c.clusters_tested;
-    nodes_tested += c.nodes_tested, nodes_possible += c.nodes_possible, contacts += c.contacts;
-    dropped += c.dropped;
+    each([&](const char*, std::uint64_t Counters::*member) { this->*member += c.*member; });
     return *this;
   }
 };
@@ -198,6 +210,7 @@ struct Spent {
 
 struct World {
   Settings settings;
+  std::int64_t scene = -1;  ///< WorldDef::scene
   std::vector<const Shape*> shapes;
   std::vector<Body> bodies;
   std::vector<Plane> planes;

@@ -47,25 +47,24 @@ void make_room_for(Batch& batch, Resident& r, gpu::uint& samples, gpu::uint& can
 }
 
 void take_counters(gpu::SphereProgress& p, Profile& profile) {
-  profile.count("body_steps_in_free_fall", p.free_steps);
-  profile.count("body_steps_asleep", p.asleep_steps);
-  profile.count("pairs", p.pairs_tested);
-  profile.count("pairs_recycled", p.pairs_recycled);
-  profile.count("pairs_asleep", p.pairs_asleep);
-  profile.count("pairs_culled", p.pairs_culled);
-  profile.count("clusters_tested", p.clusters_tested);
-  profile.count("nodes_tested", p.nodes_tested);
-  profile.count("nodes_possible", p.nodes_possible + (std::uint64_t{p.nodes_possible_high} << 32));
-  profile.count("contacts", p.contacts);
-  profile.count("contacts_reduced", p.dropped);
-  profile.count("colors", p.colors);
-  profile.count("coloring_rounds", p.coloring_rounds);
-  profile.count("colorings", p.colorings);
-  profile.count("pair_lists_made", p.lists_made);
-  profile.count("steps", p.steps);
-  p.steps = p.free_steps = p.pairs_tested = p.pairs_recycled = p.pairs_asleep = p.clusters_tested = p.nodes_tested =
-      p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors = p.coloring_rounds =
-          p.asleep_steps = p.pairs_culled = p.lists_made = p.colorings = 0;
+  const auto take = [&](const char* name, gpu::uint& counter) { profile.count(name, std::exchange(counter, 0u)); };
+  take("body_steps_in_free_fall", p.free_steps);
+  take("body_steps_asleep", p.asleep_steps);
+  take("pairs", p.pairs_tested);
+  take("pairs_recycled", p.pairs_recycled);
+  take("pairs_asleep", p.pairs_asleep);
+  take("pairs_culled", p.pairs_culled);
+  take("clusters_tested", p.clusters_tested);
+  take("nodes_tested", p.nodes_tested);
+  take("contacts", p.contacts);
+  take("contacts_reduced", p.dropped);
+  take("colors", p.colors);
+  take("coloring_rounds", p.coloring_rounds);
+  take("colorings", p.colorings);
+  take("pair_lists_made", p.lists_made);
+  take("steps", p.steps);
+  const std::uint64_t high = std::exchange(p.nodes_possible_high, 0u);
+  profile.count("nodes_possible", std::exchange(p.nodes_possible, 0u) + (high << 32));
 }
 
 void set_rules(gpu::SphereAsk& ask, const WatchRules& rules) {

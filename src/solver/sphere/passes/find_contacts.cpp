@@ -142,6 +142,9 @@ void find_contacts(World& world) {
               const CancelScope scope(flag);
               for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 stop_if_cancelled();
+                const Manifold& m = world.manifolds[i];
+                const AssertionScope place({world.scene, static_cast<std::int64_t>(world.counters.steps), m.a,
+                                            m.b == ground ? -1 : static_cast<std::int64_t>(m.b)});
                 find_contacts_of(world, world.manifolds[i], counters);
               }
               return counters;
