@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "output/trace_file.hpp"
+#include "output/trace_lines.hpp"
 
 #include <filesystem>
 
@@ -26,6 +27,7 @@ std::unique_ptr<Trace> open_trace(const std::string& path, const Request& reques
     throw environment_error("the trace cannot be written: it is a directory", path, "name a file for --trace");
   }
   const std::filesystem::path extension = std::filesystem::path(path).extension();
+  if (extension == ".jsonl") return std::make_unique<TraceLines>(path);
   if (extension != ".bag" && extension != ".mcap") return std::make_unique<TraceFile>(path);
   if (!message_trace_maker()) {
     throw environment_error("this build writes no messages of ROS", path,

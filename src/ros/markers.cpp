@@ -155,6 +155,26 @@ visualization_msgs::MarkerArray following_markers(const LoadedRequest& loaded, c
   return array;
 }
 
+std_msgs::ColorRGBA action_color(ContactAction action) {
+  std_msgs::ColorRGBA color;
+  color.a = 1.0f;
+  switch (action) {
+    case ContactAction::resting:
+      color.r = 0.16f, color.g = 0.62f, color.b = 0.33f;
+      break;
+    case ContactAction::sliding:
+      color.r = 0.95f, color.g = 0.76f, color.b = 0.0f;
+      break;
+    case ContactAction::pushed_apart:
+      color.r = 0.82f, color.g = 0.31f, color.b = 0.69f;
+      break;
+    case ContactAction::impact:
+      color.r = 0.82f, color.g = 0.10f, color.b = 0.10f;
+      break;
+  }
+  return color;
+}
+
 visualization_msgs::MarkerArray contact_markers(const std::vector<SceneContact>& contacts, const LoadedRequest& loaded,
                                                 const Frames& frames, const ros::Time& stamp) {
   const LightestPart lightest(loaded);
@@ -176,7 +196,8 @@ visualization_msgs::MarkerArray contact_markers(const std::vector<SceneContact>&
   };
   for (const SceneContact& c : contacts) {
     const double weights = c.force.norm() / lightest.weight;
-    add(points, c.point, c);
+    points.points.push_back(point_message(c.point));
+    points.colors.push_back(action_color(c.action));
     add(normals, c.point, c);
     add(normals, c.point + 0.15 * lightest.diagonal * c.normal, c);
     add(forces, c.point, c);

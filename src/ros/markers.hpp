@@ -15,22 +15,28 @@ namespace bin_scenes {
 visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,
                                               const ros::Time& stamp);
 
-/// The same parts and bin as they follow the TF frames of the parts: for a recording of a heap that moves.
+/// Returns markers of the parts and the bin that follow the TF frames of the parts, for a recording of a heap that
+/// moves.
 visualization_msgs::MarkerArray following_markers(const LoadedRequest& loaded, const Frames& frames,
                                                   const ros::Time& stamp);
 
 /// Contacts as three lists: "contact_points", "contact_normals" (from the point towards part b) and "contact_forces"
 /// (on part b, friction included; the weight of the lightest part is drawn as long as half its diagonal, and no force
-/// longer than three diagonals). The colour shows the load: blue up to a tenth of that weight, red from a hundred
-/// times on, by its logarithm. Lists without contacts are deleted.
+/// longer than three diagonals). Points have the colour of their action. Normals and forces have the colour of the
+/// load: blue up to a tenth of that weight, red from a hundred times that weight on, on a logarithmic scale. Lists
+/// without contacts are deleted.
 visualization_msgs::MarkerArray contact_markers(const std::vector<SceneContact>& contacts, const LoadedRequest& loaded,
                                                 const Frames& frames, const ros::Time& stamp);
+
+/// Colour of what a contact does: green resting, yellow sliding, magenta pushed apart, red impact.
+std_msgs::ColorRGBA action_color(ContactAction action);
 
 /// Neighbouring ids get hues far apart: steps of the golden ratio round the colour circle.
 std_msgs::ColorRGBA part_color(int id);
 std_msgs::ColorRGBA bin_color();
 
-/// How RViz finds a model: package:// as the user wrote it, else file:// with the absolute path, percent-encoded.
+/// Returns the URI by which RViz finds a model: package:// as the user wrote it, otherwise file:// with the absolute
+/// path, percent-encoded.
 std::string resource_uri(const std::string& model, const std::string& path);
 
 }  // namespace bin_scenes

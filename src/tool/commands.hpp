@@ -43,7 +43,7 @@ int inspect(const InspectOptions& options);
 
 struct SymmetriesOptions {
   std::string model, unit, solid;
-  std::optional<double> tolerance_mm;  ///< none: a hundredth of the part's size
+  std::optional<double> tolerance_mm;  ///< none: 1 % of the size of the part
   std::string picture;                 ///< PNG file; empty: none
   bool json = false;
 };
@@ -57,7 +57,7 @@ struct SensorOptions {
 int sensor(const SensorOptions& options);
 
 struct RealismOptions {
-  std::vector<std::string> files;               ///< of a real camera
+  std::vector<std::string> files;               ///< files of a real camera
   std::string request, sensor;                  ///< sensor: of the request; empty: its first one
   std::string focal;                            ///< pixel; empty: that of the sensor
   std::string scale = "0.001", unit = "0.001";  ///< m
@@ -105,7 +105,7 @@ struct AuditOptions {
   std::optional<double> floor;      ///< m
   std::size_t most = 0;             ///< heaps; 0: all
   std::vector<std::string> limits;  ///< "key=value"
-  double share = 0.05;              ///< of the parts that may be above a limit of overlap, gap or drift
+  double share = 0.05;              ///< share of the parts that may exceed a limit of overlap, gap or drift
   std::string out;                  ///< HTML file; empty: none
   bool json = false;
 };
@@ -124,6 +124,7 @@ int report(const ReportOptions& options);
 struct ViewOptions {
   std::string scene;   ///< its folder, or its scene.json
   std::string models;  ///< folder of the model files; empty: they lie beside or above the scene
+  std::string trace;   ///< .jsonl file of `generate --trace`; empty: none
   std::string out;     ///< HTML file; empty: view.html in the folder
 };
 int view(const ViewOptions& options);

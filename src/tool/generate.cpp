@@ -5,6 +5,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/output/trace.hpp"
+#include "bin_scenes/pour/contact_action.hpp"
 #include "tool/commands.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/progress_bar.hpp"
@@ -145,10 +146,7 @@ class Tracing {
     hooks.trace_rate = rate;
     hooks.trace = [this](std::size_t, double time, const std::vector<BodyState>& states) { add(time, states); };
     if (!trace_->shows_contacts()) return;
-    hooks.trace_contacts = [this](const std::vector<ContactForce>& forces) {
-      sample_.contacts.clear();
-      for (const ContactForce& f : forces) sample_.contacts.push_back({f.a, f.b, f.point, f.normal, f.force});
-    };
+    hooks.trace_contacts = [this](const std::vector<ContactForce>& forces) { forces_ = forces; };
   }
   void finish() { trace_->finish(); }
 
@@ -163,12 +161,16 @@ class Tracing {
       sample_.parts[i].pose = states[i].pose;
       sample_.parts[i].velocity = states[i].velocity;
     }
+    if (trace_->shows_contacts()) sample_.contacts = contacts_of(forces_, before_, states, generator_.loaded());
+    before_ = states;
     trace_->add(sample_);
   }
 
   std::unique_ptr<Trace> trace_;
   const Generator& generator_;
   TraceSample sample_;
+  std::vector<ContactForce> forces_;  ///< at the time of the next sample
+  std::vector<BodyState> before_;     ///< of the previous sample
   bool begun_ = false;
 };
 

@@ -43,8 +43,8 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
   app.add_option(
       "--trace", o.trace,
-      "file with each part over simulated time: .csv (pose and velocity), or .bag or .mcap with the contacts, for "
-      "RViz and Foxglove");
+      "file with each part over simulated time: .csv (pose and velocity); with the contacts: .jsonl for view --trace, "
+      ".bag or .mcap for RViz and Foxglove");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
   app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
   app.add_flag(
@@ -166,6 +166,7 @@ void add_report(CLI::App& app, ReportOptions& o) {
 void add_view(CLI::App& app, ViewOptions& o) {
   app.add_option("SCENE", o.scene, "folder of a scene, or its scene.json")->required();
   app.add_option("--models", o.models, "folder of the models, if they lie neither beside nor above the scene");
+  app.add_option("--trace", o.trace, "a .jsonl file of generate --trace: shows the scene over time, with its contacts");
   app.add_option("--out", o.out, "HTML file; left out: SCENE/view.html");
 }
 

@@ -6,13 +6,14 @@
 #include "dataset/grasp_view.hpp"
 #include "dataset/page.hpp"
 #include "tool/commands.hpp"
+#include "tool/packed.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/view_cloud.hpp"
 #include "tool/view_models.hpp"
+#include "tool/view_trace.hpp"
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -27,14 +28,6 @@ namespace fs = std::filesystem;
 using config::Json;
 
 constexpr std::size_t most_points = 400'000;  ///< of all sensors; a point takes 25 bytes of the page
-
-/// Numbers as the page's typed arrays have them: little-endian, base64.
-template <class Number>
-std::string packed(const std::vector<Number>& numbers) {
-  Bytes bytes(numbers.size() * sizeof(Number));
-  if (!bytes.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  return base64(bytes);
-}
 
 Json packed(const Mesh& mesh) {
   std::vector<float> vertices;
@@ -88,7 +81,7 @@ void add_sensors(Json& data, SceneFile& scene, const std::string& folder) {
   }
 }
 
-Json view_data(SceneFile scene, const std::string& folder, const std::string& models) {
+Json view_data(SceneFile scene, const std::string& folder, const ViewOptions& options) {
   SceneBin bin{scene.bin};
   Json data = {{"name", fs::weakly_canonical(folder).filename().string()},
                {"seed", scene.seed},
@@ -96,10 +89,11 @@ Json view_data(SceneFile scene, const std::string& folder, const std::string& mo
                {"bin", config::JsonWriter::object(bin)},
                {"report", config::JsonWriter::object(scene.report)}};
   for (const char* list : {"meshes", "parts", "sensors", "clouds"}) data[list] = Json::array();
-  add_parts(data, scene, folder, models);
+  add_parts(data, scene, folder, options.models);
+  data["trace"] = options.trace.empty() ? Json() : view_trace(options.trace, scene);
   add_sensors(data, scene, folder);
   data.update(grasp_view(folder));
-  if (scene.bin.kind == Bin::Kind::mesh) data["bin"]["shape"] = packed(find_bin(scene.bin, folder, models));
+  if (scene.bin.kind == Bin::Kind::mesh) data["bin"]["shape"] = packed(find_bin(scene.bin, folder, options.models));
   return data;
 }
 
@@ -128,7 +122,7 @@ int view(const ViewOptions& options) {
   bar.stage(0.0, 1.0, "reading models and clouds");
   Json data;
   try {
-    data = view_data(scene, folder, options.models);
+    data = view_data(scene, folder, options);
   } catch (const Json::exception& error) {
     throw input_error(std::string("is no grasps.json that bin_scenes wrote: ") + error.what(), folder,
                       "make the scene anew: generate --overwrite");
@@ -138,8 +132,10 @@ int view(const ViewOptions& options) {
   put(page, "/*DATA*/null", for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)));
   write_text(path, page);
   bar.clear();
-  std::printf("%s: %zu parts, %zu clouds, %.1f MB\n", path.c_str(), data["parts"].size(), data["clouds"].size(),
-              static_cast<double>(page.size()) / 1e6);
+  const std::string samples =
+      options.trace.empty() ? "" : std::to_string(data["trace"]["times"].size()) + " samples of the trace, ";
+  std::printf("%s: %zu parts, %zu clouds, %s%.1f MB\n", path.c_str(), data["parts"].size(), data["clouds"].size(),
+              samples.c_str(), static_cast<double>(page.size()) / 1e6);
   if (data["clouds"].empty())
     std::fprintf(stderr, "bin_scenes: no cloud, since %s\n",
                  data["sensors"].empty() ? "the scene has no sensors"

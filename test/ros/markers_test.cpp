@@ -131,7 +131,9 @@ TEST_F(Markers, ContactsAreDrawnByTheWeightOfTheLightestPart) {
   const double diagonal = loaded.parts[0]->diagonal(), weight = 0.5 * loaded.request.gravity.norm();
   const Vec3 point(0.1, 0.2, 0.3);
   const auto contact = [&](double weights) {
-    return SceneContact{0, 1, point, Vec3::UnitX(), weights * weight * Vec3::UnitZ()};
+    SceneContact contact{0, 1, point, Vec3::UnitX(), weights * weight * Vec3::UnitZ()};
+    if (weights > 1.0) contact.action = ContactAction::impact;
+    return contact;
   };
   const auto array = contact_markers({contact(1.0), contact(1000.0), contact(0.0)}, loaded, {}, stamp).markers;
   ASSERT_EQ(array.size(), 3u);
@@ -145,8 +147,10 @@ TEST_F(Markers, ContactsAreDrawnByTheWeightOfTheLightestPart) {
   EXPECT_NEAR((length(array[2], 0) - 0.5 * diagonal * Vec3::UnitZ()).norm(), 0.0, 1e-12);
   EXPECT_NEAR((length(array[2], 1) - 3.0 * diagonal * Vec3::UnitZ()).norm(), 0.0, 1e-12);
   EXPECT_EQ(length(array[2], 2), Vec3::Zero());
-  EXPECT_EQ(array[0].colors.at(1).r, 1.0f) << "far above a hundred weights";
-  EXPECT_EQ(array[0].colors.at(2).b, 1.0f) << "nothing presses";
+  EXPECT_EQ(array[2].colors.at(2).r, 1.0f) << "far above a hundred weights";
+  EXPECT_EQ(array[2].colors.at(4).b, 1.0f) << "nothing presses";
+  EXPECT_EQ(array[0].colors.at(1), action_color(ContactAction::impact));
+  EXPECT_EQ(array[0].colors.at(2), action_color(ContactAction::resting));
   for (const auto& m : contact_markers({}, loaded, {}, stamp).markers)
     EXPECT_EQ(m.action, visualization_msgs::Marker::DELETE);
 }

@@ -284,6 +284,85 @@ sensors:
         self.assertEqual((self.scene / "scene.json").stat().st_mtime_ns, before, "made anew")
         self.assertTrue((self.scene / "view.html").exists())
 
+    def traced(self, *options):
+        """The scene with its trace, 50 samples a second, by the default solver; returns the samples."""
+        text = (REQUEST % SENSORS).replace("model: b", "model: models/b").replace("bullet", "sphere, sphere: {device: cpu}")
+        (self.folder / "request.yaml").write_text(text)
+        self.run_tool("generate", "request.yaml", "--out", "out", "--overwrite", "--trace", "heap.jsonl",
+                      "--trace-rate", "50", *options)
+        lines = [json.loads(line) for line in (self.folder / "heap.jsonl").read_text().splitlines()]
+        self.assertEqual(lines[0]["format"], "bin_scenes/trace/1")
+        return lines[0]["weight"], lines[1:]
+
+    def test_a_trace_ends_where_the_scene_is_and_its_forces_carry_the_heap(self):
+        weight, samples = self.traced()
+        self.assertAlmostEqual(weight, min(0.03 * 0.04 * 0.05, 0.08 * 0.02 * 0.02) * 1000 * 9.81, 6)
+        data = self.data(self.view("--trace", "heap.jsonl"))
+        trace, parts = data["trace"], data["parts"]
+        self.assertEqual(trace["times"], [sample["time"] for sample in samples])
+        self.assertEqual(trace["ids"], [part["id"] for part in parts])
+        unpacked = {key: numpy.frombuffer(base64.b64decode(trace[key]), kind) for key, kind in
+                    (("poses", "<f4"), ("contacts", "<f4"), ("actions", "u1"), ("pairs", "<i4"))}
+        poses = unpacked["poses"].reshape(len(samples), len(parts), 7)
+        last = numpy.array([part["pose"]["position"] + part["pose"]["orientation_xyzw"] for part in parts])
+        self.assertLess(numpy.abs(poses[-1] - last).max(), 1e-6)
+        inside = (~numpy.isnan(poses[:, :, 0])).sum(1)
+        self.assertLess(inside[0], 10, "parts come in one after the other")
+        self.assertEqual(list(inside), [len(sample["parts"]) for sample in samples])
+        self.assertEqual(trace["counts"], [len(sample["contacts"]) for sample in samples])
+
+        contacts, pairs = unpacked["contacts"].reshape(-1, 9), unpacked["pairs"].reshape(-1, 2)
+        at_rest = slice(sum(trace["counts"][:-1]), None)
+        self.assertEqual(set(unpacked["actions"][at_rest]), {0}, "all contacts rest at the end")
+        self.assertEqual(trace["action_names"], ["resting", "sliding", "pushed apart", "impact"])
+        self.assertGreater(len(set(unpacked["actions"])), 2, "parts hit each other and slide before they rest")
+        # What a part gets from its contacts carries it: closed form of the rest.
+        forces = numpy.zeros((len(parts), 3))
+        for (a, b), contact in zip(pairs[at_rest], contacts[at_rest]):
+            forces[a] -= contact[6:]
+            if b >= 0:
+                forces[b] += contact[6:]
+        for part, force in zip(parts, forces):
+            own = 1000 * 9.81 * (0.03 * 0.04 * 0.05 if "box" in part["model"] else 0.08 * 0.02 * 0.02)
+            self.assertLess(numpy.linalg.norm(force - [0, 0, own]), 0.05 * own, part["id"])
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_a_browser_shows_a_trace_at_any_time(self):
+        _, samples = self.traced()
+        self.view("--trace", "heap.jsonl")
+        early = next(i for i, sample in enumerate(samples) if len(sample["parts"]) == 5 and sample["contacts"])
+        for i in (early, len(samples) - 1):
+            dom = self.browse("--dump-dom", at="#time=%d" % i)
+            self.assertIn('data-ready="yes"', dom)
+            self.assertIn('data-present="%d"' % len(samples[i]["parts"]), dom)
+            self.assertIn('data-contacts="%d"' % len(samples[i]["contacts"]), dom)
+            self.assertEqual(float(re.search(r'data-time="([^"]*)"', dom)[1]), samples[i]["time"])
+        plain = "#through=camera&colour=none&frusta=0&grasps=0&contacts=0"
+        first, last = self.picture(plain + "&time=%d" % early), self.picture(plain)
+        self.assertGreater((first != last).any(2).mean(), 0.01, "the slider moves the parts")
+        self.assertTrue((last == self.picture(plain + "&time=%d" % (len(samples) - 1))).all(), "it begins at the end")
+        shown = self.picture(plain.replace("contacts=0", "contacts=1"))
+        drawn = shown[(shown != last).any(2)]
+        self.assertGreater(len(drawn), 100)
+        green = numpy.abs(drawn.astype(int) - [0x2a, 0x9d, 0x55]).max(1) < 8
+        self.assertGreater(green.sum(), 50, "points of contacts that rest")
+        if KEEP:
+            for name, i in (("early", early), ("last", len(samples) - 1)):
+                self.browse("--window-size=1280,860", "--screenshot=%s" % KEEP.replace(".png", "_%s.png" % name),
+                            at="#colour=none&frusta=0&time=%d" % i)
+
+    def test_a_bad_trace_is_one_clear_error(self):
+        weight, samples = self.traced()
+        file = self.folder / "heap.jsonl"
+        whole = file.read_text()
+        self.refused([self.scene, "--trace", "nowhere.jsonl"], "nowhere.jsonl", "there is no such trace")
+        for text, part in (("", "is no trace"), ("time,id,x\n", "is damaged"), (whole.partition("\n")[0], "holds no sample"),
+                           (whole[:-20], "is damaged"), (whole.replace('"parts"', '"part"'), "is no trace"),
+                           ('{"format": "bin_scenes/trace/2"}\n', "is no trace"),
+                           (whole.partition("\n")[0] + '\n{"time": 0, "parts": [], "contacts": []}', "another scene")):
+            file.write_text(text)
+            self.refused([self.scene, "--trace", "heap.jsonl"], "heap.jsonl", part, "--trace FILE.jsonl")
+
     def test_bad_input_is_one_clear_error(self):
         self.make("json,ply")
         self.refused(["nowhere"], "nowhere", "there is no scene", "scene.json")

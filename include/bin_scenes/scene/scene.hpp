@@ -34,12 +34,22 @@ struct ScenePart {
   std::map<std::string, double> visible_fraction;
 };
 
+/// What a contact does, as a trace shows it (pour/contact_action.hpp decides it).
+enum class ContactAction {
+  resting,       ///< it carries a load, and the surfaces do not move along each other
+  sliding,       ///< the surfaces move along each other
+  pushed_apart,  ///< the parts overlap, and the solver separates them
+  impact         ///< the parts hit each other since the last sample
+};
+const char* name_of(ContactAction action);
+
 /// A contact of the finished scene, at which one part touches another part or the bin (bin frame, SI).
 struct SceneContact {
   int a = -1, b = -1;  ///< ids of the parts; b is -1 for the bin
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();  ///< unit vector from a to b
   Vec3 force = Vec3::Zero();    ///< N, the force on b including friction; the opposite force acts on a
+  ContactAction action = ContactAction::resting;  ///< only in traces
 };
 
 /// A scene with the seed and index that identify it.
