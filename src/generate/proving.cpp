@@ -1,5 +1,7 @@
 #include "generate/proving.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 
 namespace bin_scenes {
@@ -21,9 +23,12 @@ std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasp
   }
   std::stable_sort(free.begin(), free.end(),
                    [&](std::size_t a, std::size_t b) { return grasps[a].score > grasps[b].score; });
+  BIN_SCENES_ASSERT(std::is_sorted(free.begin(), free.end(),
+                                   [&](std::size_t a, std::size_t b) { return grasps[a].score > grasps[b].score; }));
   if (free.size() <= count) return free;
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < count; ++k) chosen.push_back(free[count == 1 ? 0 : k * (free.size() - 1) / (count - 1)]);
+  BIN_SCENES_ASSERT(chosen.size() == count);
   return chosen;
 }
 
@@ -34,10 +39,18 @@ void prove_grasps(SceneGrasps& grasps, const Scene& scene, const LoadedRequest& 
   for (const std::size_t i : chosen) {
     const SceneGrasp& grasp = grasps.grasps[i];
     const Vec3& lift = pick_of(grasps, grasp.part).lift;
-    trials.push_back({grasp.part, grasp.gripper, grasp.pose, grasp.width, grasp.force, grasp.inner,
-                      lift.norm() > 0.0 ? Vec3(lift.normalized()) : Vec3(Vec3::UnitZ())});
+    Trial trial;
+    trial.part = grasp.part;
+    trial.gripper = grasp.gripper;
+    trial.pose = grasp.pose;
+    trial.width = grasp.width;
+    trial.force = grasp.force;
+    trial.inner = grasp.inner;
+    if (lift.norm() > 0.0) trial.lift = lift.normalized();
+    trials.push_back(trial);
   }
   const std::vector<LiftProof> proofs = prover.prove(scene, loaded, trials);
+  BIN_SCENES_ASSERT(proofs.size() == trials.size());
   for (std::size_t k = 0; k < chosen.size(); ++k) grasps.grasps[chosen[k]].proof = proofs[k];
 }
 

@@ -23,9 +23,15 @@ std::vector<PartTruth> truth_of(const Scene& scene, const RangeImage& image, con
     const auto id = static_cast<std::size_t>(part.id);
     const PixelBox whole = projected_box(models.at(part.line)->mesh(), bin_in_device * part.pose, device);
     const double all = static_cast<double>(image.total.at(id));
-    truth.push_back({part.id, bin_in_camera * part.pose,
-                     all > 0.0 ? static_cast<double>(image.visible.at(id)) / all : 0.0, boxes.at(id).xywh(),
-                     whole.xywh(), image.visible.at(id), measured.at(id), image.total.at(id)});
+    PartTruth& seen = truth.emplace_back();
+    seen.id = part.id;
+    seen.pose_in_camera = bin_in_camera * part.pose;
+    seen.visible_fraction = all > 0.0 ? static_cast<double>(image.visible.at(id)) / all : 0.0;
+    seen.visible_box = boxes.at(id).xywh();
+    seen.whole_box = whole.xywh();
+    seen.visible_pixels = image.visible.at(id);
+    seen.measured_pixels = measured.at(id);
+    seen.all_pixels = image.total.at(id);
   }
   return truth;
 }

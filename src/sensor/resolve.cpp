@@ -31,7 +31,7 @@ Rim rim_of(const Bin& bin, const Aabb* bounds) {
   return rim;
 }
 
-Vec3 middle_of(const Bin& bin, const Aabb* bounds) {
+Vec3 center_of(const Bin& bin, const Aabb* bounds) {
   if (bin.kind == Bin::Kind::mesh && bounds && !bounds->empty()) return bounds->center();
   return {0.0, 0.0, bin.kind == Bin::Kind::box ? 0.5 * bin.inner_size.z() : 0.0};
 }
@@ -252,7 +252,7 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
     const Vec3 eye = center + std::max(height, 1.05 * sensor.near) * Vec3::UnitZ();
     full.pose = Pose{eye, Quat(0.0, 1.0, 0.0, 0.0)};  // half a turn about x: z down, y to the rear
   }
-  Vec3 target = middle_of(bin, bounds);
+  Vec3 target = center_of(bin, bounds);
   const double ahead = (full.pose->inverse() * target).z();
   if (bin.kind == Bin::Kind::none || !(ahead > sensor.near)) {  // no bin to aim at: a point on the optical axis
     target = *full.pose * Vec3(0.0, 0.0, std::sqrt(sensor.near * sensor.far));
@@ -265,6 +265,8 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
   if (!full.bounces && model.indirect) full.bounces = model.bounces;
   full.depth_scale =
       scale_for(deepest(full, bin, room_of(bin, bounds)), full.noise ? full.settings.of<DepthFormat>().unit : 0.0);
+  BIN_SCENES_ASSERT(is_rigid(*full.pose) && is_rigid(*full.projector.pose) && is_rigid(*full.laser.pose));
+  BIN_SCENES_ASSERT(full.k.size() == 9 && full.depth_scale > 0.0);
   return full;
 }
 

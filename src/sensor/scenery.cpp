@@ -302,8 +302,16 @@ std::size_t Scenery::body_count() const {
 
 Scenery::Body Scenery::body(std::size_t index) const {
   const State::Body& body = state_->bodies.at(index);
-  return {&body.tree->mesh(), &body.tree->planes, body.tree->closed, body.first_face,
-          body.pose,          body.part,          body.label,        body.line};
+  Body out;
+  out.mesh = &body.tree->mesh();
+  out.planes = &body.tree->planes;
+  out.closed = body.tree->closed;
+  out.first_face = body.first_face;
+  out.pose = body.pose;
+  out.part = body.part;
+  out.label = body.label;
+  out.line = body.line;
+  return out;
 }
 
 Scenery::Face Scenery::face(std::uint32_t face) const {

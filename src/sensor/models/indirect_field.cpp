@@ -69,7 +69,7 @@ IndirectField::IndirectField(const LitScene& scene, const View& view, const Setu
     nodes_.followed.insert(nodes_.followed.end(), square.followed.begin(), square.followed.end());
     nodes_.others.insert(nodes_.others.end(), square.others.begin(), square.others.end());
   }
-  tell_tiles();
+  sort_into_tiles();
 }
 
 /// Calls work(tile) for those in which a node counts.
@@ -85,7 +85,7 @@ void IndirectField::for_tiles(const Node& node, const Work& work) const {
   }
 }
 
-void IndirectField::tell_tiles() {
+void IndirectField::sort_into_tiles() {
   const std::size_t tiles = static_cast<std::size_t>(columns_) * rows_;
   first_.assign(tiles + 1, 0);
   lit_.assign(tiles, 0);
@@ -131,7 +131,7 @@ void IndirectField::fill(Nodes& out, int left, int top) const {
 }
 
 /// The pixel nearest to the mean place of some.
-std::size_t IndirectField::middle_of(const std::vector<std::size_t>& pixels) const {
+std::size_t IndirectField::central_pixel(const std::vector<std::size_t>& pixels) const {
   double x = 0.0, y = 0.0;
   for (const std::size_t i : pixels) x += static_cast<double>(i % width_), y += static_cast<double>(i / width_);
   x /= static_cast<double>(pixels.size()), y /= static_cast<double>(pixels.size());
@@ -177,7 +177,7 @@ void IndirectField::divide(Nodes& out, int left, int top, int spacing, std::vect
     std::vector<std::size_t> same(pixels.begin(), rest);
     if (same.empty()) same.push_back(seed);  // of a normal that is no number
     pixels.erase(pixels.begin(), rest == pixels.begin() ? rest + 1 : rest);
-    const std::size_t center = middle_of(same);
+    const std::size_t center = central_pixel(same);
     const double size = spacing * view_.depth[center] / view_.lens.fx;
     const double dense = near_by(setup_.samples) * narrowness(scene_.surfaces.of(own.line));
     const double too_near = spacing <= finest ? std::numeric_limits<double>::infinity() : 1.0 / (dense * size);

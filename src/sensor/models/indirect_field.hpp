@@ -67,10 +67,10 @@ class IndirectField {
   void divide(Nodes& out, int left, int top, int spacing, std::vector<std::size_t> pixels) const;
   int samples_for(const Gathered& light) const;
   bool look(std::size_t pixel, double too_near, Gathered& light) const;
-  std::size_t middle_of(const std::vector<std::size_t>& pixels) const;
+  std::size_t central_pixel(const std::vector<std::size_t>& pixels) const;
   Vec3 step_on_face(std::size_t pixel, const Vec3& step) const;
   void add_node(Nodes& out, std::size_t pixel, int spacing, const Gathered& light) const;
-  void tell_tiles();
+  void sort_into_tiles();
   template <class Work>
   void for_tiles(const Node& node, const Work& work) const;
 

@@ -93,8 +93,9 @@ void LaserLine::find_lines(const Carriage& at, const std::vector<Hit>& hits, Lin
     for (int s = first_of(a, b); s <= last_of(a, b); ++s) out.codes[static_cast<std::size_t>(s)] = code;
   };
 
-  const Vec3 fan_way = to_camera_ * (directions_.back() - directions_.front());
-  const bool rising = (upright_ ? fan_way.y() : fan_way.x()) > 0.0;  // samples, from the first ray to the last
+  const Vec3 fan_direction = to_camera_ * (directions_.back() - directions_.front());
+  const bool rising =
+      (upright_ ? fan_direction.y() : fan_direction.x()) > 0.0;  // samples, from the first ray to the last
   const double first_side = rising ? 0.0 : samples_, last_side = rising ? samples_ : 0.0;
   std::vector<Line> asked;
   std::optional<double> before;  // sample of the last hit

@@ -6,19 +6,19 @@
 namespace bin_scenes {
 
 LaserLine::Setup laser_line_setup(const Sensor& s) {
-  const Vec3 step = s.scan.step * s.scan.direction.normalized();
-  return {lens_of(s),
-          *s.pose,
-          *s.laser.pose,
-          1e-3 * s.laser.width_mm,
-          step,
-          s.scan.profiles,
-          s.settings.of<LaserLineSettings>(),
-          s.imager,
-          s.noise,
-          s.near,
-          s.far,
-          indirect_of(s)};
+  LaserLine::Setup setup;
+  setup.camera = lens_of(s);
+  setup.camera_pose = *s.pose;
+  setup.laser_pose = *s.laser.pose;
+  setup.line_width = 1e-3 * s.laser.width_mm;
+  setup.scan = s.scan.step * s.scan.direction.normalized();
+  setup.profiles = s.scan.profiles;
+  setup.settings = s.settings.of<LaserLineSettings>();
+  setup.imager = s.imager;
+  setup.noise = s.noise;
+  setup.near = s.near, setup.far = s.far;
+  setup.indirect = indirect_of(s);
+  return setup;
 }
 
 namespace {

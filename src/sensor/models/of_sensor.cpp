@@ -75,7 +75,7 @@ Plate::Plate(const Sensor& sensor, double distance, double incidence, double alb
       surfaces(targets.surfaces()),
       sensor_(sensor) {}
 
-View Plate::seen_in_the_middle() const {
+View Plate::seen_at_center() const {
   Sensor cut = sensor_;
   const int left = (sensor_.width - 9) / 2, top = (sensor_.height - 9) / 2;
   cut.width = cut.height = 9;

@@ -44,7 +44,7 @@ RangeImage image_by(const Model& model, Fidelity fidelity, View&& view, const Dr
 struct Plate {
   Plate(const Sensor& sensor, double distance, double incidence, double albedo);
   /// Returns the view of the plate's centre, with as many pixels as the surroundings of one pixel need.
-  View seen_in_the_middle() const;
+  View seen_at_center() const;
 
   Targets targets;
   const Scenery scenery;

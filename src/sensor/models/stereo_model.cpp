@@ -7,15 +7,16 @@
 namespace bin_scenes {
 
 Stereo::Setup stereo_setup(const Sensor& s) {
-  return {lens_of(s.projector),
-          *s.projector.pose,
-          s.settings.of<StereoSettings>(),
-          s.imager,
-          s.noise,
-          s.near,
-          s.far,
-          indirect_of(s),
-          s.settings.of<StereoPipeline>()};
+  Stereo::Setup setup;
+  setup.projector = lens_of(s.projector);
+  setup.projector_pose = *s.projector.pose;
+  setup.settings = s.settings.of<StereoSettings>();
+  setup.imager = s.imager;
+  setup.noise = s.noise;
+  setup.near = s.near, setup.far = s.far;
+  setup.indirect = indirect_of(s);
+  setup.pipeline = s.settings.of<StereoPipeline>();
+  return setup;
 }
 
 namespace {
@@ -142,7 +143,7 @@ void report(RangeImage& image, const Sensor& device, const Sensor& believed) {
 
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
   Plate plate(sensor, distance, incidence, albedo);
-  const View view = plate.seen_in_the_middle();
+  const View view = plate.seen_at_center();
   return Stereo(plate.scenery, view, plate.surfaces, stereo_setup(sensor)).depth_sigma(view.depth.size() / 2);
 }
 

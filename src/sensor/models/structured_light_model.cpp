@@ -21,16 +21,17 @@ IndirectField::Setup indirect_light_of(const Sensor& s) {
 }  // namespace
 
 StructuredLight::Setup structured_light_setup(const Sensor& s) {
-  return {lens_of(s.projector),
-          *s.projector.pose,
-          s.settings.of<StructuredLightSettings>(),
-          s.imager,
-          s.noise,
-          s.near,
-          s.far,
-          indirect_light_of(s),
-          s.fidelity == Fidelity::analytic,
-          s.settings.of<FilterSettings>().reflection};
+  StructuredLight::Setup setup;
+  setup.projector = lens_of(s.projector);
+  setup.projector_pose = *s.projector.pose;
+  setup.settings = s.settings.of<StructuredLightSettings>();
+  setup.imager = s.imager;
+  setup.noise = s.noise;
+  setup.near = s.near, setup.far = s.far;
+  setup.indirect = indirect_light_of(s);
+  setup.only_analytic = s.fidelity == Fidelity::analytic;
+  setup.reflection = s.settings.of<FilterSettings>().reflection;
+  return setup;
 }
 
 namespace {
@@ -118,7 +119,7 @@ void report(RangeImage& image, const Sensor& device, const Sensor& believed) {
 
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
   Plate plate(sensor, distance, incidence, albedo);
-  const View view = plate.seen_in_the_middle();
+  const View view = plate.seen_at_center();
   return StructuredLight(plate.scenery, view, plate.surfaces, structured_light_setup(sensor))
       .depth_sigma(view.depth.size() / 2);
 }

@@ -1,3 +1,6 @@
+/// The part of the sensor model `structured_light` that sees pixels near edges: it divides them into cells of a
+/// sixteenth of a pixel and sums the light over these. Pixels that see one face in even light do not need it
+/// (structured_light.hpp).
 #pragma once
 
 #include "core/in_parallel.hpp"

@@ -56,16 +56,18 @@ void candidates_of_pair(const World& world, const Manifold& m, const Placement& 
   const Samples &samples_a = world.samples(body_a), &samples_b = world.samples(body_b);
   const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
-  const bool way_back = world.settings.way_back;
   // The last sweeps look as far ahead as another sub-step.
   const float rest = world.settings.time_step - world.plan().half_way + world.plan().sub_step;
   const Drift a_goes(rest, a, b), b_goes(rest, b, a);
-  test_samples(
-      {samples_a, samples_b, sa.field, sb.field, a_to_b, b_to_a, 0, a_goes.drift, a_goes.twist, margin, way_back, out},
-      counters);
-  test_samples({samples_b, samples_a, sb.field, sa.field, b_to_a, b_to_a, SPHERE_SIDE_B, b_goes.drift, b_goes.twist,
-                margin, way_back, out},
-               counters);
+  const View::Tested tested_a{samples_a, sa.field}, tested_b{samples_b, sb.field};
+  View of_a(tested_a, tested_b, a_to_b, b_to_a, out), of_b(tested_b, tested_a, b_to_a, b_to_a, out);
+  of_b.side = SPHERE_SIDE_B;
+  of_a.drift = a_goes.drift, of_a.twist = a_goes.twist;
+  of_b.drift = b_goes.drift, of_b.twist = b_goes.twist;
+  of_a.margin = of_b.margin = margin;
+  of_a.way_back = of_b.way_back = world.settings.way_back;
+  test_samples(of_a, counters);
+  test_samples(of_b, counters);
 }
 
 void candidates_of_ground(const World& world, const Manifold& m, const Placement& a, float margin, Counters& counters,
