@@ -113,7 +113,7 @@ uint reduce(float size, float soon) {
     FOR_OWN_CANDIDATES(at) {
       SphereCandidate c = candidates[at];
       if (c.apart < 0.0) continue;
-      float apart = min(c.apart, way_between(c.on_a, c.normal, on_a, normal, size));
+      float apart = min(c.apart, distance_between(c.on_a, c.normal, on_a, normal, size));
       if (apart < TWIN * size) apart = -1.0;
       candidates[at].apart = apart;
       if (apart < 0.0) continue;

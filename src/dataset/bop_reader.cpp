@@ -2,6 +2,7 @@
 /// points up, given by the set or by the caller.
 #include "dataset/bop_reader.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "core/read_file.hpp"
 #include "output/bop_image.hpp"
@@ -97,7 +98,7 @@ nlohmann::json of_world(const nlohmann::json& camera, const std::string& key) {
   return camera.value("cam_" + key, camera.value(key, nlohmann::json()));
 }
 
-bool tells_world(const nlohmann::json& camera) {
+bool states_world(const nlohmann::json& camera) {
   return !of_world(camera, "R_w2c").is_null() && !of_world(camera, "t_w2c").is_null();
 }
 
@@ -111,7 +112,7 @@ BopView view_of(const fs::path& scene, const std::string& suffix, const std::str
   view.k = camera.at("cam_K").get<std::array<double, 9>>();
   view.depth_scale = metres * camera.value("depth_scale", 1.0);
   Pose camera_in_world;
-  if (tells_world(camera)) {
+  if (states_world(camera)) {
     const Pose world_in_camera{millimetres_of(of_world(camera, "t_w2c")),
                                rotation(of_world(camera, "R_w2c"), where + ", cam_R_w2c")};
     camera_in_world = world_in_camera.inverse();
@@ -132,6 +133,7 @@ BopView view_of(const fs::path& scene, const std::string& suffix, const std::str
       part.visible = info[i].at("visib_fract");
       part.px_visible = info[i].at("px_count_visib");
     }
+    BIN_SCENES_ASSERT(is_rigid(part.in_camera) && is_rigid(part.in_world));
     view.parts.push_back(part);
   }
   return view;
@@ -183,7 +185,7 @@ BopSet read_bop_set(const std::string& root, const BopReadOptions& options) {
       for (const auto& [number, key] : images) {
         set.views.push_back(view_of(scene, suffix, key, cameras.at(key), truth.at(key),
                                     info.value(key, nlohmann::json::array()), options));
-        set.world_told = set.world_told && tells_world(cameras.at(key));
+        set.world_stated = set.world_stated && states_world(cameras.at(key));
       }
     }
     for (const BopView& view : set.views)
@@ -195,6 +197,9 @@ BopSet read_bop_set(const std::string& root, const BopReadOptions& options) {
                           (models / "models_info.json").string(), "add its entry");
       if (!fs::is_regular_file(path)) throw input_error("is missing, and scenes show it", path, "add the model");
     }
+    BIN_SCENES_ASSERT(each_is(set.views, [&](const BopView& view) {
+      return each_is(view.parts, [&](const BopPart& part) { return set.models.count(part.object) > 0; });
+    }));
     check_units(set, models_info, models);
   } catch (const nlohmann::json::exception& error) {
     throw input_error(std::string("is not as BOP has it: ") + error.what(), root,

@@ -19,30 +19,31 @@ struct BopPart {
   Pose in_world;                   ///< m; z up
   std::optional<double> visible;   ///< visib_fract as stated
   std::optional<long> px_visible;  ///< px_count_visib as stated
-  std::optional<int> id;           ///< of the instance; only data sets of this project state it
+  std::optional<int> id;           ///< number of the instance, which only data sets of this project state
 };
 
-/// What one image says of a heap. Images of several views of it have the same parts in the same places.
+/// One image of a heap: its camera, and the parts that it shows.
 struct BopView {
   std::filesystem::path scene;  ///< folder
-  std::string suffix;           ///< of its files: "" or "_SENSOR"
+  std::string suffix;           ///< suffix of the names of its files: "" or "_SENSOR"
   int image = 0;
   std::array<double, 9> k{};
   double depth_scale = 1e-3;  ///< m a count of the depth image
-  Pose camera;                ///< in the world
+  Pose camera;                ///< from the camera to the world
   std::vector<BopPart> parts;
 };
 
 struct BopReadOptions {
-  std::string sensor;      ///< of a set with several; empty: the first one
-  std::optional<Vec3> up;  ///< in the set's world, or in the camera's frame where it has none
-  std::string models;      ///< folder; empty: models beside or above the scenes
+  std::string sensor;  ///< the sensor to read, in a data set with several; empty: the first one
+  std::optional<Vec3>
+      up;  ///< upward direction in the world of the data set, or in the camera's frame if the data set states no world
+  std::string models;  ///< folder; empty: models beside or above the scenes
 };
 
 struct BopSet {
   std::filesystem::path root;
   std::map<int, std::string> models;  ///< path of the mesh by object, of those that scenes show
-  bool world_told = true;      ///< false: images have no cam_R_w2c, and up is taken to be against the camera's axis
+  bool world_stated = true;    ///< false: images have no cam_R_w2c, and up is taken to be against the camera's axis
   std::vector<BopView> views;  ///< in order of scene and image
 };
 

@@ -146,8 +146,8 @@ void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annota
 /// The model's vertices in the image span its box, up to pixels whose centres no triangle covers.
 void verify_projection(const Json& truth, const Json& info, const ImageFiles& image, const BopModel& model,
                        const std::string& where, Findings& findings) {
-  const Mat3 in_told = matrix_of(truth.at("cam_R_m2c"));
-  const Mat3 turn = image.box_camera.given_in_it.orientation.toRotationMatrix() * in_told;
+  const Mat3 stated_rotation = matrix_of(truth.at("cam_R_m2c"));
+  const Mat3 turn = image.box_camera.given_in_it.orientation.toRotationMatrix() * stated_rotation;
   const Vec3 shift = image.box_camera.given_in_it.orientation * vector_of(truth.at("cam_t_m2c")) +
                      1e3 * image.box_camera.given_in_it.position;
   double left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;

@@ -51,7 +51,7 @@ std::vector<Vec3> far_directions(const Mesh& mesh, const Vec3& center, const Vec
 }
 
 /// The centre of the surface around a direction, seen from the centre, shifted there until it stays.
-Vec3 middle_around(const Mesh& mesh, const Vec3& center, Vec3 direction) {
+Vec3 center_around(const Mesh& mesh, const Vec3& center, Vec3 direction) {
   const double within = std::cos(0.4);  // rad: half of what is between arms of an icosahedron, and less
   for (int shift = 0; shift < 20; ++shift) {
     Vec3 sum = Vec3::Zero();
@@ -81,7 +81,7 @@ std::vector<Vec3> arm_directions(const Mesh& mesh, const Vec3& center) {
     const auto same = [&](const Vec3& other) { return other.dot(arm) > std::cos(one_arm); };
     if (std::none_of(far.begin(), far.end(), same)) far.push_back(arm);
   }
-  for (const Vec3& arm : far) directions.push_back(middle_around(mesh, center, arm));
+  for (const Vec3& arm : far) directions.push_back(center_around(mesh, center, arm));
   return directions;
 }
 

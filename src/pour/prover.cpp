@@ -32,7 +32,7 @@ constexpr double jaw_masses = 4.0;          ///< of each jaw, in masses of the p
 constexpr double moved_distance = 0.05;     ///< of a part's diagonal: others that moved farther are reported
 constexpr double moved_turn = 0.1;          ///< rad: likewise
 constexpr int steps_per_touch = 4;          ///< between two readings of the forces
-constexpr int touches_without_grip = 3;     ///< after which the part is lost
+constexpr int touches_without_hold = 3;     ///< after which the part is lost
 constexpr std::size_t trials_at_once = 32;  ///< worlds in memory
 
 /// Height of the hand above its start, t seconds after the lift began: speed rises and falls evenly.
@@ -216,7 +216,7 @@ class Attempt {
       const Touch now = touch();
       back_ = std::max(back_, now.back);
       without_ = now.gripper ? 0 : without_ + 1;
-      if (without_ >= touches_without_grip) return end_lost();
+      if (without_ >= touches_without_hold) return end_lost();
     }
     if (height_ < lift_height) return;
     const bool came = (center(states_[part_]) - center(before_[part_])).dot(trial_.lift) >= 0.5 * lift_height;

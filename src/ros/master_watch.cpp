@@ -40,7 +40,7 @@ Answer ask(const char* method, const std::vector<std::string>& arguments) {
 }
 
 /// Informs this process who publishes a topic, as a master does: by the interface that each node has for masters.
-void tell_publishers(const std::string& topic, const XmlRpcValue& uris) {
+void notify_publishers(const std::string& topic, const XmlRpcValue& uris) {
   std::string host;
   std::uint32_t port = 0;
   if (!ros::network::splitURI(ros::XMLRPCManager::instance()->getServerURI(), host, port)) return;
@@ -76,7 +76,7 @@ void register_everything(const std::vector<std::string>& services) {
   topics.getSubscribedTopics(names);
   for (const std::string& name : names)
     if (Answer answer = ask("registerSubscriber", {name, "*", uri}); answer.accepted)
-      tell_publishers(name, answer.value);
+      notify_publishers(name, answer.value);
 
   const std::string address =
       "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());

@@ -39,7 +39,7 @@ PartFrames::PartFrames(ros::NodeHandle node, std::string gone_frame, double rate
                        std::function<void()> clock_changed)
     : node_(std::move(node)),
       gone_frame_(std::move(gone_frame)),
-      tell_clock_changed_(std::move(clock_changed)),
+      report_clock_change_(std::move(clock_changed)),
       span_(span),
       last_seen_(ros::Time::now()) {
   tf_ = node_.advertise<tf2_msgs::TFMessage>(topic::tf, 100, true);
@@ -96,7 +96,7 @@ void PartFrames::tick() {
       }
     }
   }
-  if (changed) tell_clock_changed_();
+  if (changed) report_clock_change_();
 }
 
 }  // namespace bin_scenes

@@ -45,13 +45,13 @@ class PartFrames {
 
   ros::NodeHandle node_;
   const std::string gone_frame_;
-  const std::function<void()> tell_clock_changed_;
+  const std::function<void()> report_clock_change_;
   std::mutex mutex_;
   double span_;
-  tf2_msgs::TFMessage parts_;  ///< with the scene's stamp
-  std::uint32_t repeats_ = 0;  ///< of this scene
+  tf2_msgs::TFMessage parts_;  ///< transforms with the stamp of the scene
+  std::uint32_t repeats_ = 0;  ///< how often the transforms of this scene were repeated
   ros::Time last_sent_;        ///< newest stamp on /tf; under another clock: none
-  ros::Time last_seen_;        ///< of the clock
+  ros::Time last_seen_;        ///< last time of the clock
   ros::Publisher tf_;
   ros::WallTimer timer_;
 };

@@ -54,7 +54,7 @@ std::vector<AuditMeasure*> AuditFigures::all() {
 std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures) {
   std::vector<AuditHeap> heaps;
   for (const BopView& view : set.views) {
-    if (!heaps.empty() && set.world_told && same_heap(*heaps.back().views.front(), view)) {
+    if (!heaps.empty() && set.world_stated && same_heap(*heaps.back().views.front(), view)) {
       const BopView& first = *heaps.back().views.front();
       for (std::size_t i = 0; i < view.parts.size(); ++i) {
         const Pose &a = first.parts[i].in_world, &b = view.parts[i].in_world;

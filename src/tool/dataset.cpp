@@ -54,9 +54,9 @@ class Teller {
       return;
     }
     const auto now = std::chrono::steady_clock::now();
-    if (!last && told_ && now - time_ < std::chrono::milliseconds(500)) return;
+    if (!last && reported_ && now - time_ < std::chrono::milliseconds(500)) return;
     time_ = now;
-    told_ = true;
+    reported_ = true;
     const nlohmann::ordered_json line = {{"phase", p.phase},
                                          {"heaps", p.heaps},
                                          {"heaps_done", p.heaps_done},
@@ -80,7 +80,7 @@ class Teller {
               known ? std::optional<double>(p.remaining_s) : std::nullopt);
   }
 
-  bool json_, told_ = false;
+  bool json_, reported_ = false;
   ProgressBar bar_{false};  // workers are forked
   std::chrono::steady_clock::time_point time_;
 };

@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """The docs: links lead somewhere, every page and picture is linked, the README is short, the version is one."""
+import importlib.machinery
+import importlib.util
 import pathlib
 import re
+import subprocess
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -65,6 +68,32 @@ class Docs(unittest.TestCase):
                 title, *answer = page.read_text().splitlines()[:3]
                 self.assertTrue(title.startswith("# ") and title.endswith("?"), page.name)
                 self.assertTrue(all(line.endswith(".") for line in answer), page.name)
+
+    def test_every_header_begins_with_sentences(self):
+        """Two sentences at least where others include it, one elsewhere; the first comment of the file counts."""
+        for folder, least in (("include", 2), ("src", 1)):
+            for path in sorted((ROOT / folder).rglob("*.hpp")):
+                first = re.match(r"(?:///? ?.*\n)*", path.read_text())[0]
+                ends = len(re.findall(r"[.!?:](?=\s|$)", first))
+                with self.subTest(header=path.relative_to(ROOT).as_posix()):
+                    self.assertGreaterEqual(ends, least)
+
+    def test_sentences_are_drawn_by_seed(self):
+        script = ROOT / "scripts/draw_sentences"
+        loader = importlib.machinery.SourceFileLoader("draw_sentences", str(script))
+        draw = importlib.util.module_from_spec(importlib.util.spec_from_loader("draw_sentences", loader))
+        loader.exec_module(draw)
+        lines = ["/// Of two", "/// lines. And more.", "int a;  ///< of a,", "        ///< continued", "/// Next.", "", "// x y"]
+        self.assertEqual(list(draw.comments(lines)),
+                         [(1, "Of two lines. And more."), (3, "`int a;` of a, continued"), (5, "Next."), (7, "x y")])
+        lines = ["# Title", "A line. Another.", "```", "code", "```", "| a | b |", "- an item"]
+        self.assertEqual(list(draw.markdown(lines)), [(2, "A line. Another."), (7, "an item")])
+
+        def drawn(*options):
+            return subprocess.run([script, *options], capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertEqual(drawn("--seed", "1"), drawn("--seed", "1"))
+        self.assertNotEqual(drawn("--seed", "1"), drawn("--seed", "2"))
+        self.assertEqual(len(drawn("--seed", "3", "-n", "50")), 50)
 
     def test_the_version_is_one(self):
         version = re.search(r"project\(bin_scenes VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]

@@ -12,7 +12,8 @@ const float STRIKE = 0.02f;  // distance in a step / distance up to which contac
                              // under the referee
 
 /// Distance (m) of a candidate from a selected one, in position and normal together.
-INLINE float way_between(IN(vec3) on_a, IN(vec3) normal, IN(vec3) chosen_on_a, IN(vec3) chosen_normal, float size) {
+INLINE float distance_between(IN(vec3) on_a, IN(vec3) normal, IN(vec3) chosen_on_a, IN(vec3) chosen_normal,
+                              float size) {
   return length(on_a - chosen_on_a) + 0.3f * size * length(normal - chosen_normal);
 }
 

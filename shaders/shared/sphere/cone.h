@@ -44,7 +44,7 @@ INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {
 }
 
 // Returns the unit direction of the axis of the cone; 0 for a cone of all directions.
-INLINE vec3 middle_of(IN(Cone) cone) {
+INLINE vec3 axis_direction(IN(Cone) cone) {
   uint bounds = bounds_of(cone);
   if (bounds == SPHERE_AXIS) return axis_of(cone);
   vec3 sum = vec3(0.0f, 0.0f, 0.0f);

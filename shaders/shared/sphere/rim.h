@@ -61,8 +61,8 @@ INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) ro
   t = 0.5f * (lower + upper);
   touch.point = on_rim(rim, rotation, t);
   touch.distance = sample_field(field, touch.point, touch.gradient);
-  vec3 way_out = -(rotation * touch.gradient);
-  return dot(way_out, vec3(0.0f, 0.0f, 1.0f)) >= least_out && dot(way_out, normal_of(plane)) >= least_out;
+  vec3 exit_direction = -(rotation * touch.gradient);
+  return dot(exit_direction, vec3(0.0f, 0.0f, 1.0f)) >= least_out && dot(exit_direction, normal_of(plane)) >= least_out;
 }
 
 // Returns the feature number of a contact around point i of the rim of plane k.

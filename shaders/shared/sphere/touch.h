@@ -19,7 +19,7 @@ INLINE float error_of(IN(Field) field) {
 
 // Returns how far (m) a sample at `point`, where the field is `distance`, must move along a unit direction until it
 // leaves the part, having been inside. Returns a negative value if it does not leave within `reach`.
-INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float distance, float reach) {
+INLINE float exit_distance(IN(Field) field, IN(vec3) point, IN(vec3) along, float distance, float reach) {
   float least = 0.25f * field.cell, t = 0.0f, before = distance;
   bool inside = distance < 0.0f;
   while (t < reach) {
@@ -153,9 +153,9 @@ INLINE bool finds_exit_back(IN(View) view, IN(Touch) at, IN(Cone) cone, OUT(Exit
   if (!view.way_back || at.distance >= error_of(view.field)) return false;
   bool deep = at.distance < -2.0f * cell;
   if (deep) reach = span_of(view.field);
-  vec3 back = -(view.to_field.rotation * middle_of(cone)), away;
+  vec3 back = -(view.to_field.rotation * axis_direction(cone)), away;
   for (int turn = 0; turn < (deep ? 2 : 1); ++turn) {
-    float found = way_out(view.field, at.point, (turn == 0 ? 1.0f : -1.0f) * back, at.distance, reach);
+    float found = exit_distance(view.field, at.point, (turn == 0 ? 1.0f : -1.0f) * back, at.distance, reach);
     if (turn == 0 ? found < 0.0f : found >= 0.0f && found < behind) return false;
     if (turn == 0) behind = reach = found;
   }

@@ -26,8 +26,8 @@ void World::turn_with_bin(double dt) {
   for (const auto& body : bodies_) {
     if (!body->rigid || body->def->fixed) continue;
     const Vec3 x = from_bt(body->rigid->getWorldTransform().getOrigin()), v = from_bt(body->rigid->getLinearVelocity());
-    const Vec3 middle_v = v + 0.5 * dt * (from_bt(gravity) + frame_.acceleration(x, v));
-    body->rigid->setGravity(gravity + to_bt(frame_.acceleration(x + 0.5 * dt * v, middle_v)));
+    const Vec3 mid_step_v = v + 0.5 * dt * (from_bt(gravity) + frame_.acceleration(x, v));
+    body->rigid->setGravity(gravity + to_bt(frame_.acceleration(x + 0.5 * dt * v, mid_step_v)));
   }
 }
 

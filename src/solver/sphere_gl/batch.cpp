@@ -198,7 +198,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   bodies_.upload(r.first_body, bodies.data(), bodies.size());
   upload_states(slot, world);
   progress = upload_pairs(slot, world);
-  tell_phase(world, progress);
+  copy_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   upload_progress({{slot, progress}});
   forget_worst(slot);

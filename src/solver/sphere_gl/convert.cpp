@@ -66,7 +66,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   return out;
 }
 
-void tell_phase(const World& world, gpu::SphereProgress& progress) {
+void copy_phase(const World& world, gpu::SphereProgress& progress) {
   progress.fine = world.fine ? 1 : 0;
   static_assert(static_cast<gpu::uint>(Stiffness::rigid) == SPHERE_RIGID);
   progress.stiffness = static_cast<gpu::uint>(world.stiffness);

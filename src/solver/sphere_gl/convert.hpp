@@ -41,7 +41,7 @@ void read_state(const gpu::SphereState& state, sphere::Body& body);
 
 gpu::SphereSettingsBlock to_gpu(const sphere::Settings& settings);
 /// What follows from the phase: samples in use, softness, friction, whether forces are forgotten.
-void tell_phase(const sphere::World& world, gpu::SphereProgress& progress);
+void copy_phase(const sphere::World& world, gpu::SphereProgress& progress);
 gpu::SpherePlane to_gpu(const sphere::Plane& plane);
 
 /// Pairs and manifolds of a world as one page of its list holds them; `body` counts from `first_body` on the device.

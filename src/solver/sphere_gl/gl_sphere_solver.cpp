@@ -237,7 +237,7 @@ class GlSphereSolver final : public Solver, private WorldWatch {
   /// How its world's contacts are to be solved.
   void set_phase_of(Resident& r) const {
     if (software_) r.world.effort = 1;  // software_group_bodies
-    tell_phase(r.world, r.progress);
+    copy_phase(r.world, r.progress);
     r.progress_changed = true;
   }
 

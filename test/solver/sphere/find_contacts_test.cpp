@@ -233,7 +233,7 @@ TEST(NarrowPhase, WhatHasNoWayBackIsNoContact) {
   seam.bounds = 2;
   seam.bound[0] = Vec3f::UnitX();
   seam.bound[1] = -Vec3f::UnitX();
-  ASSERT_TRUE(middle_of(seam).isZero());
+  ASSERT_TRUE(axis_direction(seam).isZero());
   std::fill(shape.coarse.cones.begin(), shape.coarse.cones.end(), seam);
   for (Edge& each : shape.coarse.edges) each.cone = seam;
   World world = world_of_boxes(shape, 2);

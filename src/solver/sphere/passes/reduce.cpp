@@ -37,7 +37,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, float
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (apart[i] < 0) continue;
       const Candidate& p = candidates[i];
-      apart[i] = std::min(apart[i], way_between(p.on_a, p.normal, c.on_a, c.normal, size));
+      apart[i] = std::min(apart[i], distance_between(p.on_a, p.normal, c.on_a, c.normal, size));
       if (apart[i] < TWIN * size) {
         apart[i] = -1;
         continue;
