@@ -45,6 +45,9 @@ std::function<double(const Vec3&)> plate(double degrees) {
 RangeImage smoothed(RangeImage image, double sigma, double step = 0.005) {
   FilterSettings settings;
   settings.smoothing = {sigma, step};
+  image.validity.clear();
+  for (const float z : image.depth)
+    image.validity.push_back(static_cast<std::uint8_t>(std::isnan(z) ? Validity::nothing : Validity::valid));
   filter(settings, image);
   return image;
 }

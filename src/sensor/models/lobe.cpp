@@ -1,6 +1,5 @@
 #include "sensor/models/lobe.hpp"
 
-#include "bin_scenes/core/assertion.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/unit_circle.hpp"
 
@@ -32,7 +31,6 @@ Lobe::Lobe(const Surface& surface, const Vec3& normal, const Vec3& to_eye)
       // What facets send on to each other leaves in all directions: some samples are always drawn as of a matte
       // surface.
       share_(0.75 * surface.gloss) {
-  BIN_SCENES_ASSERT(is_unit(normal) && is_unit(to_eye) && share_ >= 0.0 && share_ < 1.0);
   eye_.z() = std::max(eye_.z(), 1e-6);
   surface_.along = frame_.transpose() * surface.along;
   if (!frame_along(surface_, Vec3::UnitZ())) surface_.anisotropy = 0.0, widths_ = widths_of(surface_);
