@@ -10,7 +10,7 @@
 namespace bin_scenes {
 
 template <class Number>
-std::string packed(const std::vector<Number>& numbers) {
+std::string packed_array(const std::vector<Number>& numbers) {
   Bytes bytes(numbers.size() * sizeof(Number));
   if (!bytes.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
   return base64(bytes);

@@ -35,7 +35,7 @@ Json packed(const Mesh& mesh) {
   for (const Vec3& v : mesh.vertices)
     for (int i = 0; i < 3; ++i) vertices.push_back(static_cast<float>(v[i]));
   for (const Triangle& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
-  return {{"vertices", packed(vertices)}, {"triangles", packed(triangles)}};
+  return {{"vertices", packed_array(vertices)}, {"triangles", packed_array(triangles)}};
 }
 
 Json packed(const ViewCloud& cloud, const Sensor& sensor) {
@@ -46,10 +46,10 @@ Json packed(const ViewCloud& cloud, const Sensor& sensor) {
   }
   Json json = {{"sensor", sensor.name},
                {"source", cloud.source},
-               {"points", packed(points)},
-               {"labels", packed(cloud.labels)},
-               {"validity", packed(cloud.validity)}};
-  if (cloud.has_errors) json["errors"] = packed(cloud.errors);
+               {"points", packed_array(points)},
+               {"labels", packed_array(cloud.labels)},
+               {"validity", packed_array(cloud.validity)}};
+  if (cloud.has_errors) json["errors"] = packed_array(cloud.errors);
   return json;
 }
 

@@ -101,12 +101,12 @@ Json packed_trace(const Reader& reader, const SceneFile& scene, const std::strin
     names.push_back(name_of(action));
   return {{"times", times},
           {"ids", ids},
-          {"poses", packed(poses)},
+          {"poses", packed_array(poses)},
           {"counts", counts},
-          {"contacts", packed(contacts)},
-          {"actions", packed(actions)},
+          {"contacts", packed_array(contacts)},
+          {"actions", packed_array(actions)},
           {"action_names", names},
-          {"pairs", packed(pairs)},
+          {"pairs", packed_array(pairs)},
           {"weight", reader.weight()}};
 }
 
