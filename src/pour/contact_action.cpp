@@ -13,6 +13,7 @@ namespace {
 constexpr double impact_fall = 0.01;    ///< / d
 constexpr double overlap = 1e-3;        ///< / d
 constexpr double sliding_speed = 0.05;  ///< d per second
+constexpr double rounding = 1e-3;       ///< of the length of a normal in single precision
 
 /// Models of all bodies: the copies of each line follow each other.
 std::vector<const PartModel*> models_of(const LoadedRequest& loaded) {
@@ -37,8 +38,8 @@ class Actions {
   }
 
   ContactAction of(const ContactForce& force) const {
-    BIN_SCENES_ASSERT(force.a >= 0 && static_cast<std::size_t>(force.a) < models_.size() && is_unit(force.normal));
-    BIN_SCENES_ASSERT(force.b < static_cast<int>(models_.size()) && force.force.allFinite());
+    BIN_SCENES_ASSERT(force.a >= 0 && force.a < static_cast<int>(models_.size()) && force.force.allFinite());
+    BIN_SCENES_ASSERT(force.b < static_cast<int>(models_.size()) && is_unit(force.normal));
     const double diagonal = std::min(diagonal_of(force.a), diagonal_of(force.b));
     const Vec3 speed = relative_velocity(force, now_);
     const double approach = -relative_velocity(force, before_).dot(force.normal), away = speed.dot(force.normal);
@@ -72,7 +73,11 @@ std::vector<SceneContact> contacts_of(const std::vector<ContactForce>& forces, c
                                       const std::vector<BodyState>& now, const LoadedRequest& loaded) {
   const Actions actions(before, now, loaded);
   std::vector<SceneContact> contacts;
-  for (const ContactForce& f : forces) contacts.push_back({f.a, f.b, f.point, f.normal, f.force, actions.of(f)});
+  for (ContactForce f : forces) {
+    BIN_SCENES_ASSERT(std::abs(f.normal.norm() - 1.0) < rounding);
+    f.normal.normalize();
+    contacts.push_back({f.a, f.b, f.point, f.normal, f.force, actions.of(f)});
+  }
   return contacts;
 }
 

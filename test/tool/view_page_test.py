@@ -324,14 +324,15 @@ sensors:
                 forces[b] += contact[6:]
         for part, force in zip(parts, forces):
             own = 1000 * 9.81 * (0.03 * 0.04 * 0.05 if "box" in part["model"] else 0.08 * 0.02 * 0.02)
-            self.assertLess(numpy.linalg.norm(force - [0, 0, own]), 0.05 * own, part["id"])
+            self.assertLess(numpy.linalg.norm(force - [0, 0, own]), 2e-3 * own, part["id"])
 
     @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
     def test_a_browser_shows_a_trace_at_any_time(self):
         _, samples = self.traced()
         self.view("--trace", "heap.jsonl")
-        early = next(i for i, sample in enumerate(samples) if len(sample["parts"]) == 5 and sample["contacts"])
-        for i in (early, len(samples) - 1):
+        early = next(i for i, sample in enumerate(samples) if sample["contacts"])
+        self.assertLess(len(samples[0]["parts"]), len(samples[early]["parts"]))
+        for i in (0, early, len(samples) - 1):
             dom = self.browse("--dump-dom", at="#time=%d" % i)
             self.assertIn('data-ready="yes"', dom)
             self.assertIn('data-present="%d"' % len(samples[i]["parts"]), dom)
