@@ -13,11 +13,10 @@ namespace bin_scenes {
 namespace {
 
 // Fitted to match_census() on images of heaps (docs/lab/realism.md).
-constexpr float blended = 4.0f;     // pixel: surfaces this far apart do not move each other's disparity
+constexpr float blended = 3.2f;     // pixel: surfaces this far apart do not move each other's disparity
 constexpr float separate = 2.5f;    // pixel: from here on they are rivals
 constexpr double rivals = 0.38;     // share of a window by which the best of all wrong disparities fits
-constexpr double by_chance = 0.31;  // fluctuation of the margin of a window with one dot, of random dots
-constexpr double by_place = 0.36;   // and of dots of which each has its square; smaller windows of the preset count here
+constexpr double by_chance = 0.31;  // fluctuation of the margin of a window with one dot; of spread dots as well
 
 }  // namespace
 
@@ -27,8 +26,7 @@ ExpectedCensus::ExpectedCensus(const StereoSettings& settings, const StereoPipel
       // Half of the bits of a wrong disparity differ.
       least_(rivals + 2.0 * pipeline.second_peak) {
   const double edge = 2.0 * reach_ + 1.0, dots = settings.dots * pitch * pitch * edge * edge;
-  const double by_dots = pipeline.layout == DotLayout::spread ? by_place : by_chance;
-  fluctuation_ = by_dots / std::sqrt(dots > 0.0 ? dots : edge * edge);  // without dots each pixel is texture
+  fluctuation_ = by_chance / std::sqrt(dots > 0.0 ? dots : edge * edge);  // without dots each pixel is texture
 }
 
 ExpectedCensus::Match ExpectedCensus::match_of(const std::vector<float>& disparities, int width, int height, int column,
