@@ -62,8 +62,8 @@ struct FilterSettings {
 };
 
 /// Removes pixels by SNR, neighbours, incidence, edges and size of their region, in this order. Then it replaces depths
-/// by medians and smooths them. The sensor model itself has applied the reflection filter before. Each filter treats all
-/// pixels at once, so that the result does not depend on their order. The true images do not change.
+/// by medians and smooths them. The sensor model itself has applied the reflection filter before. Each filter treats
+/// all pixels at once, so that the result does not depend on their order. The true images do not change.
 void filter(const FilterSettings& settings, RangeImage& image);
 
 }  // namespace bin_scenes
