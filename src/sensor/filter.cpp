@@ -1,3 +1,4 @@
+/// Filters of drivers: which pixels are removed, and the median of those that are left.
 #include "bin_scenes/sensor/filter.hpp"
 
 #include "core/in_parallel.hpp"
