@@ -66,10 +66,12 @@ void keep_ranges(RangeImage& image, const Sensor& device, const Sensor& believed
   report_depths(image, depth_of, Validity::nothing);
 }
 
-/// At least one unit: 0 means that nothing was measured.
+/// At least one unit: 0 means that nothing was measured. Points that are not on the rays of their pixels keep x and y.
 void round_depths(RangeImage& image, double unit) {
   if (!(unit > 0.0)) return;
   report_depths(image, [unit](double, double, double depth) { return std::max(std::round(depth / unit), 1.0) * unit; });
+  for (std::size_t i = 0; i < image.points.size(); ++i)
+    if (!std::isnan(image.depth[i])) image.points[i][2] = image.depth[i];
 }
 
 }  // namespace
@@ -92,8 +94,7 @@ void report_as_believed(RangeImage& image, const Sensor& device, const Sensor& b
     image.device = device;
     (model.report ? model.report : keep_ranges)(image, device, believed);
   }
-  if (believed.noise && !model.exact && image.points.empty())
-    round_depths(image, believed.settings.of<DepthFormat>().unit);
+  if (believed.noise && !model.exact) round_depths(image, believed.settings.of<DepthFormat>().unit);
 }
 
 }  // namespace bin_scenes

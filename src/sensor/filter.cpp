@@ -1,3 +1,4 @@
+/// Filters of drivers: which pixels are removed, and the median of those that are left.
 #include "bin_scenes/sensor/filter.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace bin_scenes {
 
@@ -19,6 +21,11 @@ void take_away(RangeImage& image, std::size_t pixel, Validity code) {
   image.label[pixel] = 0;
   image.snr[pixel] = 0.0f;
   if (!image.points.empty()) image.points[pixel] = {nan, nan, nan};
+}
+
+void take_all(RangeImage& image, const std::vector<char>& out) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (out[i]) take_away(image, i, Validity::outlier);
 }
 
 /// Pixels of the window that have nearly the depth of its centre, which does not count.
@@ -43,8 +50,85 @@ void take_outliers(const OutlierFilter& settings, RangeImage& image) {
           neighbours_of(image, static_cast<int>(x), static_cast<int>(y), settings) < settings.neighbours;
     }
   });
-  for (std::size_t i = 0; i < out.size(); ++i)
-    if (out[i]) take_away(image, i, Validity::outlier);
+  take_all(image, out);
+}
+
+void take_steep(double incidence, RangeImage& image) {
+  const std::vector<std::array<float, 3>> points = points_of(image), normals = normals_of(image, points);
+  std::vector<char> out(points.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Map<const Eigen::Vector3f> point(points[i].data()), normal(normals[i].data());
+    out[i] = -point.normalized().dot(normal) < std::cos(incidence);  // a pixel without normal stays
+  }
+  take_all(image, out);
+}
+
+/// Calls step(i, k) for each pair of measured neighbours in a row or column.
+template <class Step>
+void for_each_pair(const RangeImage& image, const Step& step) {
+  const auto width = static_cast<std::size_t>(image.width);
+  for (std::size_t i = 0; i < image.depth.size(); ++i) {
+    if (std::isnan(image.depth[i])) continue;
+    if ((i + 1) % width != 0 && !std::isnan(image.depth[i + 1])) step(i, i + 1);
+    if (i + width < image.depth.size() && !std::isnan(image.depth[i + width])) step(i, i + width);
+  }
+}
+
+/// A pixel is near a step if one in the square around it is at the step.
+void take_edges(const EdgeFilter& settings, RangeImage& image) {
+  std::vector<char> out(image.depth.size(), 0);
+  const int reach = settings.reach - 1, width = image.width, height = image.height;
+  for_each_pair(image, [&](std::size_t a, std::size_t b) {
+    if (std::abs(static_cast<double>(image.depth[a]) - image.depth[b]) <= settings.step) return;
+    for (const std::size_t at : {a, b}) {
+      const int x = static_cast<int>(at) % width, y = static_cast<int>(at) / width;
+      for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u)
+          out[static_cast<std::size_t>(v) * width + u] = 1;
+    }
+  });
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = out[i] && !std::isnan(image.depth[i]);
+  take_all(image, out);
+}
+
+/// Regions as sets of which each pixel names another one, the first pixel itself.
+void take_clusters(const ClusterFilter& settings, RangeImage& image) {
+  std::vector<std::size_t> parent(image.depth.size()), size(image.depth.size(), 0);
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto first_of = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for_each_pair(image, [&](std::size_t a, std::size_t b) {
+    if (std::abs(static_cast<double>(image.depth[a]) - image.depth[b]) > settings.step) return;
+    const std::size_t one = first_of(a), other = first_of(b);
+    parent[std::max(one, other)] = std::min(one, other);
+  });
+  for (std::size_t i = 0; i < parent.size(); ++i) ++size[first_of(i)];
+  for (std::size_t i = 0; i < parent.size(); ++i)
+    if (!std::isnan(image.depth[i]) && size[first_of(i)] < static_cast<std::size_t>(settings.pixels))
+      take_away(image, i, Validity::outlier);
+}
+
+/// Of an even number the smaller one in the middle.
+void take_medians(const MedianFilter& settings, RangeImage& image) {
+  const int reach = settings.window / 2, width = image.width, height = image.height;
+  const std::vector<float> depth = image.depth;
+  in_parallel(static_cast<std::size_t>(height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    std::vector<float> found;
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      if (std::isnan(depth[i])) continue;
+      found.clear();
+      for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u)
+          if (const float z = depth[static_cast<std::size_t>(v) * width + u]; !std::isnan(z)) found.push_back(z);
+      const auto median = found.begin() + static_cast<std::ptrdiff_t>((found.size() - 1) / 2);
+      std::nth_element(found.begin(), middle, found.end());
+      image.depth[i] = *middle;
+    }
+  });
 }
 
 /// Whether exactly the valid pixels have a depth.
@@ -68,7 +152,13 @@ void filter(const FilterSettings& settings, RangeImage& image) {
   for (std::size_t i = 0; i < image.depth.size(); ++i)
     if (!std::isnan(image.depth[i]) && image.snr[i] < settings.snr) take_away(image, i, Validity::dark);
   if (settings.outlier.neighbours > 0) take_outliers(settings.outlier, image);
+  if (settings.incidence > 0.0) take_steep(settings.incidence, image);
+  if (settings.edge.reach > 0) take_edges(settings.edge, image);
+  if (settings.cluster.pixels > 0) take_clusters(settings.cluster, image);
+  if (settings.median.window > 0) take_medians(settings.median, image);
   if (settings.smoothing.sigma > 0.0) smooth(settings.smoothing, image);
+  for (std::size_t i = 0; i < image.points.size(); ++i)  // of those beside the rays of their pixels z was filtered
+    if (!std::isnan(image.depth[i])) image.points[i][2] = image.depth[i];
   BIN_SCENES_ASSERT(validity_agrees(image));
 }
 

@@ -47,6 +47,11 @@ void check_outliers(const std::string& key, const OutlierFilter& outlier) {
                       "give at most " + std::to_string(most) + ", or a larger window");
 }
 
+void check_median(const std::string& key, const MedianFilter& median) {
+  if (median.window > 0 && median.window % 2 == 0)
+    throw input_error("is even: a window has a center", key + ".window", "3 or 5 is usual, 0 = off");
+}
+
 void check_smoothing(const std::string& key, const Sensor& sensor) {
   if (sensor.settings.of<FilterSettings>().smoothing.sigma == 0.0) return;
   if (sensor_model(sensor.model).image == SensorModel::Image::pinhole) return;
@@ -63,6 +68,7 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   check_name(key + ".name", sensor.name);
   check_exposures(key + ".imager.exposures", sensor.imager.exposures);
   check_outliers(key + ".filter.outlier", sensor.settings.of<FilterSettings>().outlier);
+  check_median(key + ".filter.median", sensor.settings.of<FilterSettings>().median);
   check_smoothing(key + ".filter.smoothing", sensor);
   check_baseline(key + ".projector.baseline", sensor.projector.baseline);
   check_baseline(key + ".laser.baseline", sensor.laser.baseline);

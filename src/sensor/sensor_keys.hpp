@@ -165,6 +165,29 @@ void visit(Visitor& v, ReflectionFilter& reflection) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, EdgeFilter& edge) {
+  v.field({"reach", "pixel", "so far from a step, on both of its sides; more = wider gaps around parts; 0 = off",
+           at_least(0.0, 100.0)},
+          edge.reach);
+  v.field({"step", "m", "smallest difference of neighbours that is a step; smaller = steep faces go as well",
+           above(0.0, 10.0)},
+          edge.step);
+}
+
+template <class Visitor>
+void visit(Visitor& v, ClusterFilter& cluster) {
+  v.field({"pixels", "", "regions of fewer are taken away; 0 = off", at_least(0.0, 1e8)}, cluster.pixels);
+  v.field({"step", "m", "neighbours that differ by more are not connected", above(0.0, 10.0)}, cluster.step);
+}
+
+template <class Visitor>
+void visit(Visitor& v, MedianFilter& median) {
+  v.field(
+      {"window", "pixel", "odd: edge of the window; more = less noise, rounder corners; 0 = off", at_least(0.0, 31.0)},
+      median.window);
+}
+
+template <class Visitor>
 void visit(Visitor& v, SmoothingFilter& smoothing) {
   v.field({"sigma", "pixel", "width of the weights; more = less noise, rounder creases; 0 = off", at_least(0.0, 20.0)},
           smoothing.sigma);
@@ -177,6 +200,15 @@ void visit(Visitor& v, FilterSettings& filter) {
   v.field({"snr", "", "pixels with less are taken away (code 4); 0 = off", at_least(0.0, 1e6)}, filter.snr);
   v.section({"outlier", "", "takes away pixels with too few neighbours of their depth (code 9)"}, filter.outlier);
   v.section({"reflection", "", "structured_light: takes away pixels whose light bounced (code 10)"}, filter.reflection);
+  v.field(
+      {"incidence", "rad",
+       "pixels whose measured normal is farther from the view are taken away (code 9); smaller = fewer steep faces; "
+       "0 = off",
+       at_least(0.0, 1.5707963267948966)},
+      filter.incidence);
+  v.section({"edge", "", "takes away pixels at steps of depth (code 9)"}, filter.edge);
+  v.section({"cluster", "", "takes away small regions (code 9)"}, filter.cluster);
+  v.section({"median", "", "median of the depths around each pixel that is left; holes stay"}, filter.median);
   v.section({"smoothing", "", "smooths the depth of what is left; edges stay"}, filter.smoothing);
 }
 
@@ -298,8 +330,8 @@ void visit(Visitor& v, Sensor& sensor) {
           sensor.indirect_samples);
   v.field({"noise", "", "false: every random effect is off; geometry stays"}, sensor.noise);
   v.field({"depth_unit", "m",
-           "models whose points are on the rays of their pixels, with noise: measured depth is rounded to multiples of "
-           "it, the truth is not; 0 = not rounded",
+           "with noise: measured depth is rounded to multiples of it, of laser_line the z of each point; the truth is "
+           "not; 0 = not rounded",
            at_least(0.0, 0.1)},
           sensor.settings.of<DepthFormat>().unit);
 }

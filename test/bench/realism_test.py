@@ -150,6 +150,23 @@ class Files(unittest.TestCase):
         text = "".join("%s %s %s 0 0 1 7\n" % tuple(row) for row in self.cloud)
         self.check("ascii.pcd", (head % "ascii" + text).encode())
 
+    def test_compressed_pcd(self):
+        head = ("VERSION 0.7\nFIELDS label x y z\nSIZE 2 4 4 4\nTYPE U F F F\nCOUNT 1 1 1 1\n"
+                "WIDTH 60\nHEIGHT 50\nPOINTS 3000\nDATA binary_compressed\n").encode()
+        label = bytes(6000)
+        axes = np.ascontiguousarray(self.cloud.T, "<f4").tobytes()
+
+        def literal(data):
+            return b"".join(bytes([len(data[k:k + 32]) - 1]) + data[k:k + 32] for k in range(0, len(data), 32))
+
+        # A byte of the labels, then as many repeats of it as one control holds.
+        packed = bytes([0, 0, 0xE0, 255, 0]) * 22 + literal(label[22 * 265:] + axes)
+        size = np.array([len(packed), len(label) + len(axes)], "<u4").tobytes()
+        self.check("compressed.pcd", head + size + packed)
+        with self.assertRaises(realism.BadFile):
+            options = types.SimpleNamespace(focal=FOCAL, unit=0, crop=None, scale=1e-3)
+            realism.read(self.file("damaged.pcd", head + size + packed[:-5]), options)
+
     def test_depth_image(self):
         counts = np.nan_to_num(np.round(self.image * 100), nan=0).astype(np.uint16)
         path = str(pathlib.Path(self.folder.name) / "depth.png")

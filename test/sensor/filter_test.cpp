@@ -1,6 +1,7 @@
 #include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/models.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
@@ -97,6 +98,116 @@ TEST(Filter, TakesWhatHasTooFewNeighbours) {
             "vvvvv");
 }
 
+TEST(Filter, TakesBothSidesOfAStep) {
+  const auto steps = [] {
+    return image_of(6, {1.0f, 1.0f, 1.0f, 1.5f, 1.5f, 1.5f,  //
+                        1.0f, 1.0f, 1.0f, 1.5f, 1.5f, 1.5f,  //
+                        1.0f, none, 2.0f, 1.5f, 1.51f, 1.52f});
+  };
+  RangeImage image = steps();
+  FilterSettings settings;
+  settings.edge = {1, 0.1};
+  filter(settings, image);
+  EXPECT_EQ(codes(image),
+            "vvoovv"
+            "vvoovv"
+            "vsoovv");
+  image = steps();
+  settings.edge = {2, 0.1};
+  filter(settings, image);
+  EXPECT_EQ(codes(image),
+            "voooov"
+            "voooov"
+            "vsooov");
+}
+
+TEST(Filter, TakesSmallRegions) {
+  // Regions of 5, 3 and 2 pixels; a slope of 0.01 a pixel connects, a missing pixel and a corner do not.
+  const auto regions = [] {
+    return image_of(5, {1.00f, 1.01f, none, 3.0f, 3.0f,  //
+                        1.01f, 1.02f, none, 3.0f, none,  //
+                        none, 1.03f, 2.0f, none, 2.0f});
+  };
+  FilterSettings settings;
+  settings.cluster = {3, 0.015};
+  RangeImage image = regions();
+  filter(settings, image);
+  EXPECT_EQ(codes(image),
+            "vvsvv"
+            "vvsvs"
+            "svoso");
+  settings.cluster.pixels = 4;
+  image = regions();
+  filter(settings, image);
+  EXPECT_EQ(codes(image),
+            "vvsoo"
+            "vvsos"
+            "svoso");
+}
+
+TEST(Filter, TheMedianKeepsStepsAndHoles) {
+  RangeImage image = image_of(7, {1, 1, 1, 2, 2,    2, 2,  //
+                                  1, 5, 1, 2, none, 2, 2,  //
+                                  1, 1, 1, 2, 2,    9, 2,  //
+                                  1, 1, 1, 2, 2,    2, 2});
+  FilterSettings settings;
+  settings.median.window = 3;
+  filter(settings, image);
+  for (int i = 0; i < 28; ++i) {
+    if (i == 11)
+      EXPECT_TRUE(std::isnan(image.depth[i]));
+    else
+      EXPECT_EQ(image.depth[i], i % 7 < 3 ? 1.0f : 2.0f) << i;
+  }
+}
+
+TEST(Filter, TheMedianOfProfilesMovesZOnly) {
+  RangeImage image = image_of(3, {1, 1, 1, 1, 4, 1, 1, 1, 1});
+  image.points.assign(9, {0.3f, 0.4f, 1.0f});
+  image.points[4] = {0.5f, 0.6f, 4.0f};
+  FilterSettings settings;
+  settings.median.window = 3;
+  filter(settings, image);
+  EXPECT_EQ(image.points[4], (std::array<float, 3>{0.5f, 0.6f, 1.0f}));
+}
+
+TEST(Filter, WhiteNoiseHasTheVarianceOfItsMedian) {
+  std::vector<float> depths(200 * 200);
+  Random random(4, 0, Stream::noise);
+  for (float& z : depths) z = static_cast<float>(1.0 + 0.001 * random.normal());
+  RangeImage image = image_of(200, depths);
+  FilterSettings settings;
+  settings.median.window = 3;
+  filter(settings, image);
+  double square = 0.0;
+  for (int y = 1; y < 199; ++y)
+    for (int x = 1; x < 199; ++x)
+      square += std::pow((image.depth[static_cast<std::size_t>(y) * 200 + x] - 1.0) / 0.001, 2);
+  EXPECT_NEAR(square / (198.0 * 198.0), 0.1661, 0.01);  // of nine (Teichroew 1956); 4 sigma of some 9000 squares
+}
+
+TEST(Filter, TakesSteepFaces) {
+  // Two planes that are turned by 50 and 70 degrees about the camera's y.
+  RangeImage image;
+  image.sensor.model = "stereo";
+  image.width = 40, image.height = 20;
+  image.sensor.width = 40, image.sensor.height = 20;
+  image.sensor.k = {400, 0, 19.5, 0, 400, 9.5, 0, 0, 1};
+  for (int i = 0; i < 800; ++i) {
+    const double u = (i % 40 - 19.5) / 400.0, slope = std::tan((i / 40 < 10 ? 50.0 : 70.0) * 3.14159265 / 180.0);
+    image.depth.push_back(static_cast<float>(1.0 / (1.0 - slope * u)));  // of z = 1 + slope x
+  }
+  image.validity.assign(800, 0);
+  image.label.assign(800, 1);
+  image.snr.assign(800, 10.0f);
+  FilterSettings settings;
+  settings.incidence = 60.0 * 3.14159265 / 180.0;
+  filter(settings, image);
+  for (const int row : {3, 7, 12, 16})
+    for (int x = 5; x < 35; ++x)
+      EXPECT_EQ(image.validity[static_cast<std::size_t>(row) * 40 + x], row < 10 ? 0 : 9) << row << " " << x;
+}
+
 TEST(Filter, TellsAllOutliersAtOnce) {
   // In a row each end has one neighbour: ends go, and what is left by them stays.
   RangeImage image = image_of(5, {1.0f, 1.0f, 1.0f, 1.0f, 1.0f});
@@ -169,6 +280,11 @@ TEST(Filter, IsReadAndWrittenBackIfGiven) {
   EXPECT_NE(text.find("        neighbours: 6\n"), std::string::npos) << text;
   EXPECT_NE(text.find("      smoothing:\n        sigma: 1.5\n"), std::string::npos) << text;
   EXPECT_EQ(written("").find("filter"), std::string::npos);
+  const std::string more =
+      written(", filter: {incidence: 1.2, edge: {reach: 2}, cluster: {pixels: 50}, median: {window: 5}}");
+  for (const char* line :
+       {"      incidence: 1.2\n", "        reach: 2\n", "        pixels: 50\n", "        window: 5\n"})
+    EXPECT_NE(more.find(line), std::string::npos) << more;
 }
 
 TEST(Filter, MistakesAreTold) {
@@ -187,6 +303,9 @@ TEST(Filter, MistakesAreTold) {
   EXPECT_NE(error({25, 5, 0.01}).find("24"), std::string::npos);
   EXPECT_NE(error({2, 4, 0.01}).find("sensors[0].filter.outlier.window"), std::string::npos);
   EXPECT_NE(error({-1, 5, 0.01}).find("at least 0"), std::string::npos);
+  Sensor sensor;
+  sensor.settings.of<FilterSettings>().median.window = 4;
+  EXPECT_THROW(check_sensors({sensor}), Error);
 }
 
 }  // namespace

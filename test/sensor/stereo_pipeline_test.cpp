@@ -6,6 +6,7 @@
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
+#include "sensor/models/disparity_filters.hpp"
 #include "sensor/models/stereo.hpp"
 #include "sensor/shot.hpp"
 #include "sensor/stage.hpp"
@@ -13,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -77,6 +79,25 @@ TEST(DepthUnit, MeasuredDepthIsAMultipleAndTheTruthIsNot) {
       const float a = fine.seen_depth()[i], b = coarse.seen_depth()[i];
       ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b)));
     }
+  }
+}
+
+TEST(DepthUnit, ProfilesKeepXAndY) {
+  Sensor sensor = sensor_of("laser_line");
+  sensor.scan.profiles = 60;
+  sensor.scan.step = 0.003;
+  TwoBoxes scene;
+  const RangeImage fine = scene.shot(sensor);
+  sensor.settings.of<DepthFormat>().unit = 0.0005;
+  const RangeImage coarse = scene.shot(sensor);
+  ASSERT_GT(valid_pixels(coarse), 3000u);
+  for (std::size_t i = 0; i < coarse.depth.size(); ++i) {
+    if (std::isnan(coarse.depth[i])) continue;
+    ASSERT_NEAR(coarse.depth[i] / 0.0005, std::round(coarse.depth[i] / 0.0005), 1e-3);
+    ASSERT_EQ(coarse.points[i][2], coarse.depth[i]);
+    ASSERT_EQ(coarse.points[i][0], fine.points[i][0]);
+    ASSERT_EQ(coarse.points[i][1], fine.points[i][1]);
+    ASSERT_NEAR(coarse.depth[i], fine.depth[i], 0.00025 + 1e-6);
   }
 }
 
@@ -172,6 +193,147 @@ TEST(StereoPipeline, TheSpatialFilterLowersNoiseAsPredicted) {
   }
 }
 
+/// A plate at 1 m before a camera of 320 x 240 pixels.
+test::Shot plate_shot(const Stereo::Setup& setup, bool decoded, std::uint64_t seed = 1) {
+  Targets targets;
+  targets.add(box_target({6.0, 6.0, 0.02}), {Vec3(0, 0, 1.01), Quat::Identity()}, {0.6, 0.0, 0.4});
+  return test::shoot<Stereo>(targets, Lens::from_fov(320, 240, 0.7), setup, decoded, seed);
+}
+
+Stereo::Setup plate_setup() {
+  Stereo::Setup setup;
+  setup.settings.baseline = 0.1;
+  setup.settings.disparities = 64;
+  setup.settings.min_texture = 0.0;
+  setup.settings.speckle_size = 0;
+  setup.projector = Lens::from_fov(260, 200, 0.9);
+  setup.projector_pose.position = Vec3(0.05, 0.0, 0.0);
+  setup.near = 0.5, setup.far = 5.0;
+  setup.pipeline.matcher = StereoMatcher::census;
+  setup.pipeline.disparity_step = 0.0;
+  return setup;
+}
+
+/// Standard deviation of the difference of two images over the square root of 2 (m): what differs from image to image.
+double temporal_noise(const Stereo::Setup& setup, bool decoded) {
+  const test::Shot a = plate_shot(setup, decoded, 1), b = plate_shot(setup, decoded, 2);
+  double square = 0.0, n = 0.0;
+  for (int y = 30; y < 210; ++y) {
+    for (int x = 70; x < 290; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * 320 + x;
+      const double difference = a.measured.depth[i] - b.measured.depth[i];
+      if (std::isnan(difference) || std::abs(difference) > 0.05) continue;  // another disparity
+      square += 0.5 * difference * difference;
+      n += 1.0;
+    }
+  }
+  EXPECT_GT(n, 20000.0);
+  return std::sqrt(square / n);
+}
+
+TEST(StereoPipeline, SuccessiveImagesAreAveraged) {
+  for (const bool decoded : {false, true}) {
+    SCOPED_TRACE(decoded);
+    Stereo::Setup setup = plate_setup();
+    setup.pipeline.temporal.delta = 10.0;
+    const double one = temporal_noise(setup, decoded);
+    setup.pipeline.temporal.frames = 6;
+    const double six = temporal_noise(setup, decoded);
+    EXPECT_NEAR(six / one, temporally_filtered_noise(setup.pipeline.temporal), 0.05);
+    setup.noise = false;
+    const test::Shot still = plate_shot(setup, decoded);
+    setup.pipeline.temporal.frames = 1;
+    const test::Shot single = plate_shot(setup, decoded);
+    for (std::size_t i = 0; i < still.measured.depth.size(); ++i) {
+      const double a = still.measured.depth[i], b = single.measured.depth[i];
+      ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b)));
+    }
+  }
+}
+
+TEST(StereoPipeline, SpreadDotsLeaveFewerHoles) {
+  Stereo::Setup setup = plate_setup();
+  setup.settings.dots = 0.03;  // about one in a window
+  std::size_t holes[2];
+  for (const DotLayout layout : {DotLayout::random, DotLayout::spread}) {
+    setup.pipeline.layout = layout;
+    const test::Shot shot = plate_shot(setup, true);
+    std::size_t& count = holes[layout == DotLayout::spread] = 0;
+    for (int y = 30; y < 210; ++y)
+      for (int x = 70; x < 290; ++x)
+        count += shot.measured.validity[static_cast<std::size_t>(y) * 320 + x] != Validity::valid;
+  }
+  EXPECT_GT(holes[0], 100u);
+  EXPECT_LT(holes[1], holes[0] / 2);
+}
+
+TEST(StereoPipeline, SpreadDotsLeaveNoSquareEmpty) {
+  // A square of 6 x 6 pixels holds a whole one of the grid, whose squares have an edge of 1 / sqrt(0.12) = 2.9 pixels.
+  // Of random dots 0.88^36 = 1 % of them are empty.
+  for (const DotLayout layout : {DotLayout::random, DotLayout::spread}) {
+    const std::vector<float> pattern = dot_pattern(258, 162, 0.12, layout, 1e-6);
+    int empty = 0;
+    for (int y = 0; y + 6 <= 162; y += 6) {
+      for (int x = 0; x + 6 <= 258; x += 6) {
+        float brightest = 0.0f;
+        for (int k = 0; k < 36; ++k)
+          brightest = std::max(brightest, pattern[static_cast<std::size_t>(y + k / 6) * 258 + x + k % 6]);
+        empty += brightest < 0.1f;
+      }
+    }
+    if (layout == DotLayout::spread)
+      EXPECT_EQ(empty, 0);
+    else
+      EXPECT_GT(empty, 0);  // blur from outside lights most of the 12 that are expected
+  }
+}
+
+TEST(StereoPipeline, ADecimatedImageIsSmallerAndUnbiased) {
+  for (const Fidelity fidelity : {Fidelity::analytic, Fidelity::decoded}) {
+    for (const int factor : {2, 4}) {
+      SCOPED_TRACE(factor);
+      TwoBoxes scene;
+      Sensor sensor = sensor_of("stereo");
+      sensor.fidelity = fidelity;
+      sensor.projector.width = 640, sensor.projector.height = 480;
+      StereoPipeline& pipeline = sensor.settings.of<StereoPipeline>();
+      pipeline.decimation = factor;
+      const RangeImage image = scene.shot(sensor);
+      ASSERT_EQ(image.width, 160);
+      ASSERT_EQ(image.depth.size(), image.seen_depth().size());
+      double error = 0.0, n = 0.0;
+      std::size_t seen = 0;
+      for (std::size_t i = 0; i < image.depth.size(); ++i) {
+        seen += !std::isnan(image.seen_depth()[i]);
+        const double difference = static_cast<double>(image.depth[i]) - image.seen_depth()[i];
+        if (std::isnan(difference) || std::abs(difference) > 0.02) continue;
+        error += difference, n += 1.0;
+      }
+      EXPECT_GT(n, 0.6 * static_cast<double>(seen));
+      EXPECT_NEAR(error / n, 0.0, 3e-4);  // matching draws disparities to whole pixels by up to 0.1, here 3 mm
+    }
+  }
+}
+
+TEST(StereoPipeline, NothingIsReportedOutsideOfNearAndFar) {
+  for (const bool decoded : {false, true}) {
+    Stereo::Setup setup = plate_setup();
+    setup.near = 0.9, setup.far = 1.2;
+    Targets targets;  // a plate that is turned by 45 degrees: depths of 0.7 to 1.7 m
+    targets.add(box_target({6.0, 6.0, 1e-4}), {Vec3(0, 0, 1.0), Quat(Eigen::AngleAxisd(0.785, Vec3::UnitY()))},
+                {0.6, 0.0, 0.4});
+    const test::Shot shot = test::shoot<Stereo>(targets, Lens::from_fov(320, 240, 0.7), setup, decoded);
+    std::size_t valid = 0;
+    for (const double z : shot.measured.depth) {
+      if (std::isnan(z)) continue;
+      ASSERT_GE(z, setup.near);
+      ASSERT_LE(z, setup.far);
+      ++valid;
+    }
+    EXPECT_GT(valid, 3000u);
+  }
+}
+
 std::string written(const std::string& keys) {
   return write_request(
       read_request_text("parts: [{model: bolt_hex.stl, unit: mm}]\nsensors: [{model: stereo" + keys + "}]",
@@ -186,6 +348,13 @@ TEST(StereoPipeline, IsReadAndWrittenBack) {
   EXPECT_NE(text.find("      second_peak: 0.05"), std::string::npos) << text;
   EXPECT_NE(text.find("      spatial:\n        alpha: 0.4\n"), std::string::npos) << text;
   EXPECT_NE(text.find("        iterations: 3\n"), std::string::npos) << text;
+  const std::string more = written(
+      ", stereo: {pattern: spread, decimation: 2, temporal: {frames: 5, persistence: 8_of_8}, hole_filling: farthest}");
+  EXPECT_NE(more.find("      pattern: spread\n"), std::string::npos) << more;
+  EXPECT_NE(more.find("      decimation: 2\n"), std::string::npos) << more;
+  EXPECT_NE(more.find("        frames: 5\n"), std::string::npos) << more;
+  EXPECT_NE(more.find("        persistence: 8_of_8\n"), std::string::npos) << more;
+  EXPECT_NE(more.find("      hole_filling: farthest\n"), std::string::npos) << more;
   EXPECT_EQ(written(text.empty() ? "" : ", stereo: {spatial: {alpha: 0.4}}").find("iterations: 3"), std::string::npos);
 }
 

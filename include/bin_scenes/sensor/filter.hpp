@@ -21,6 +21,23 @@ struct ReflectionFilter {
   double period = 5.0;  ///< projector pixels: the second period; the shorter it is, the less reflected light shifts it
 };
 
+/// Removes pixels on both sides of a step of depth, where spots of light and windows of pixels cover two surfaces.
+struct EdgeFilter {
+  int reach = 0;        ///< pixel: how far from the step; 0 = off
+  double step = 0.005;  ///< m: smallest difference of neighbours in rows and columns that is a step
+};
+
+/// Removes small regions that no neighbouring pixel connects with others.
+struct ClusterFilter {
+  int pixels = 0;       ///< smaller regions are removed; 0 = off
+  double step = 0.005;  ///< m: neighbours in rows and columns that differ by at most as much are connected
+};
+
+/// Replaces each depth by the median of the depths around it. Missing pixels are neither filled nor counted.
+struct MedianFilter {
+  int window = 0;  ///< odd, pixel: edge of the window; 0 = off
+};
+
 /// Replaces each depth by that of a plane through the surrounding pixels of the same surface. Drivers call this
 /// smoothing or surface smoothness. The SNR remains that of the measurement.
 struct SmoothingFilter {
@@ -33,13 +50,20 @@ struct FilterSettings {
   double snr = 0.0;  ///< pixels with a lower SNR become dark; 0 = off
   OutlierFilter outlier;
   ReflectionFilter reflection{};
+  double incidence = 0.0;  ///< rad: pixels of which the measured normal is farther from the view are removed; 0 = off
+  EdgeFilter edge{};
+  ClusterFilter cluster{};
+  MedianFilter median{};
   SmoothingFilter smoothing{};
-  bool any() const { return snr > 0.0 || outlier.neighbours > 0 || reflection.step > 0.0 || smoothing.sigma > 0.0; }
+  bool any() const {
+    return snr > 0.0 || outlier.neighbours > 0 || reflection.step > 0.0 || incidence > 0.0 || edge.reach > 0 ||
+           cluster.pixels > 0 || median.window > 0 || smoothing.sigma > 0.0;
+  }
 };
 
-/// Removes pixels by their SNR, then by their neighbours, and smooths the remaining ones. The sensor model itself has
-/// applied the reflection filter before. Each filter treats all pixels at once, so that the result does not depend on
-/// their order.
+/// Removes pixels by SNR, neighbours, incidence, edges and size of their region, in this order. Then it replaces depths
+/// by medians and smooths them. The sensor model itself has applied the reflection filter before. Each filter treats
+/// all pixels at once, so that the result does not depend on their order. The true images do not change.
 void filter(const FilterSettings& settings, RangeImage& image);
 
 }  // namespace bin_scenes

@@ -19,13 +19,48 @@ struct SpatialFilter {
   int iterations = 0;
 };
 
+/// Of how many of the last images a pixel must have been measured in for its last value to replace a missing one.
+enum class Persistence {
+  off,
+  eight_of_eight,
+  two_of_three,
+  two_of_four,
+  two_of_eight,
+  one_of_two,
+  one_of_five,
+  one_of_eight,
+  always
+};
+
+/// Exponential average of the disparities of successive images of the scene at rest; names and defaults are those of
+/// librealsense (doc/post-processing-filters.md). It is applied to `frames` images, and the last result is delivered.
+struct TemporalFilter {
+  int frames = 1;
+  double alpha = 0.4;
+  double delta = 0.625;
+  Persistence persistence = Persistence::two_of_four;
+};
+
+/// From where a missing pixel takes its depth: among the neighbours to the left, above and below.
+enum class HoleFilling { off, left, farthest, nearest };
+
+/// How the dots of the projector are distributed.
+enum class DotLayout {
+  random,  ///< each of the projector's pixels is a dot with the same probability
+  spread   ///< one dot at a random place in each square of a grid, so that no region is without dots
+};
+
 /// The keys of `stereo` that are not in StereoSettings.
 struct StereoPipeline {
+  DotLayout layout = DotLayout::random;
   StereoMatcher matcher = StereoMatcher::semi_global;
   int census = 7;
   double second_peak = 0.025;
   double disparity_step = 1.0 / 16.0;
+  int decimation = 1;
   SpatialFilter spatial;
+  TemporalFilter temporal;
+  HoleFilling hole_filling = HoleFilling::off;
 };
 
 /// The number format of depth.

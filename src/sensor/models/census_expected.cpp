@@ -13,10 +13,10 @@ namespace bin_scenes {
 namespace {
 
 // Fitted to match_census() on images of heaps (docs/lab/realism.md).
-constexpr float blended = 4.0f;     // pixel: surfaces this far apart do not move each other's disparity
+constexpr float blended = 3.2f;     // pixel: surfaces this far apart do not move each other's disparity
 constexpr float separate = 2.5f;    // pixel: from here on they are rivals
 constexpr double rivals = 0.38;     // share of a window by which the best of all wrong disparities fits
-constexpr double by_chance = 0.31;  // fluctuation of the margin of a window with one dot
+constexpr double by_chance = 0.31;  // fluctuation of the margin of a window with one dot; of spread dots as well
 
 }  // namespace
 

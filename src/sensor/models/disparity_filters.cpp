@@ -3,8 +3,10 @@
 #include "core/in_parallel.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace bin_scenes {
 
@@ -84,6 +86,85 @@ void filter_spatially(const SpatialFilter& settings, int width, int height, std:
 double spatially_filtered_noise(const SpatialFilter& settings, double window) {
   if (settings.iterations == 0) return 1.0;
   return variance_along(settings, window);  // the square root of the product of both dimensions
+}
+
+bool TemporalAverage::persists(unsigned history) const {
+  struct Rule {
+    unsigned images, of;
+  };
+  // In the order of the enumeration.
+  constexpr Rule rules[] = {{1, 0}, {8, 8}, {2, 3}, {2, 4}, {2, 8}, {1, 2}, {1, 5}, {1, 8}, {0, 0}};
+  const Rule rule = rules[static_cast<int>(settings_.persistence)];
+  return std::bitset<8>(history & ((1u << rule.of) - 1)).count() >= rule.images;
+}
+
+void TemporalAverage::add(std::vector<float>& disparities) {
+  last_.resize(disparities.size(), std::numeric_limits<float>::quiet_NaN());
+  measured_.resize(disparities.size(), 0);
+  const auto alpha = static_cast<float>(settings_.alpha), delta = static_cast<float>(settings_.delta);
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const unsigned history = measured_[i];
+    if (std::isnan(disparities[i])) {
+      if (persists(history)) disparities[i] = last_[i];
+      measured_[i] = static_cast<std::uint8_t>(history << 1);
+      continue;
+    }
+    const bool agree = std::abs(disparities[i] - last_[i]) < delta;
+    if (agree) disparities[i] = alpha * disparities[i] + (1.0f - alpha) * last_[i];
+    last_[i] = disparities[i];
+    measured_[i] = static_cast<std::uint8_t>(agree ? history << 1 | 1u : 1u);
+  }
+}
+
+double temporally_filtered_noise(const TemporalFilter& settings) {
+  const double steady = settings.alpha / (2.0 - settings.alpha);
+  return std::sqrt(steady + (1.0 - steady) * std::pow(1.0 - settings.alpha, 2 * (settings.frames - 1)));
+}
+
+void fill_holes(HoleFilling filling, int width, int height, std::vector<float>& disparities) {
+  if (filling == HoleFilling::off) return;
+  const auto at = [&](int x, int y) {
+    const bool inside = x >= 0 && y >= 0 && y < height;
+    return inside ? disparities[static_cast<std::size_t>(y) * width + x] : std::numeric_limits<float>::quiet_NaN();
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      float& pixel = disparities[static_cast<std::size_t>(y) * width + x];
+      if (!std::isnan(pixel)) continue;
+      pixel = at(x - 1, y);
+      if (filling == HoleFilling::left) continue;
+      for (const float other : {at(x - 1, y - 1), at(x, y - 1), at(x - 1, y + 1), at(x, y + 1)})
+        pixel = filling == HoleFilling::farthest ? std::fmin(pixel, other) : std::fmax(pixel, other);  // not NaN
+    }
+  }
+}
+
+std::vector<float> decimated(int factor, int width, int height, const std::vector<float>& disparities) {
+  constexpr int largest_median = 3;
+  const int columns = width / factor, rows = height / factor;
+  std::vector<float> out(static_cast<std::size_t>(columns) * rows, std::numeric_limits<float>::quiet_NaN());
+  in_parallel(static_cast<std::size_t>(rows), [&](std::size_t row) {
+    std::vector<float> found;
+    for (int column = 0; column < columns; ++column) {
+      found.clear();
+      for (int k = 0; k < factor * factor; ++k) {
+        const float value = disparities[(row * factor + k / factor) * width + column * factor + k % factor];
+        if (!std::isnan(value)) found.push_back(value);
+      }
+      if (found.empty()) continue;
+      float& pixel = out[row * static_cast<std::size_t>(columns) + column];
+      if (factor <= largest_median) {
+        const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+        std::nth_element(found.begin(), middle, found.end());
+        pixel = *middle;
+      } else {
+        float depths = 0.0f;  // of a camera with baseline * focal length = 1
+        for (const float value : found) depths += 1.0f / value;
+        pixel = static_cast<float>(found.size()) / depths;
+      }
+    }
+  });
+  return out;
 }
 
 double rounded_to_step(double disparity, double step) {

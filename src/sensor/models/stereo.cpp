@@ -28,10 +28,31 @@ double sampled(const std::vector<float>& pattern, const Lens& projector, double 
 
 }  // namespace
 
-std::vector<float> dot_pattern(int width, int height, double dots, double ratio) {
-  std::vector<float> pattern(static_cast<std::size_t>(width) * height);
+namespace {
+
+/// 1 where the projector has a dot.
+std::vector<float> dots_of(int width, int height, double share, DotLayout layout) {
+  std::vector<float> dots(static_cast<std::size_t>(width) * height, 0.0f);
   Random random(0, 0, Stream::sensor);  // made once in the factory: the same for every scene
-  for (float& p : pattern) p = random.uniform() < dots ? 1.0f : 0.0f;
+  if (layout == DotLayout::random) {
+    for (float& dot : dots) dot = random.uniform() < share ? 1.0f : 0.0f;
+    return dots;
+  }
+  const auto columns = static_cast<int>(std::lround(width * std::sqrt(share)));
+  const auto rows = static_cast<int>(std::lround(height * std::sqrt(share)));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double x = (column + random.uniform()) * width / columns, y = (row + random.uniform()) * height / rows;
+      dots[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1.0f;
+    }
+  }
+  return dots;
+}
+
+}  // namespace
+
+std::vector<float> dot_pattern(int width, int height, double dots, DotLayout layout, double ratio) {
+  std::vector<float> pattern = dots_of(width, height, dots, layout);
   // The projector's pixel, and the camera's with its lens: sharper dots would be aliased.
   const double sigma = std::hypot(0.5, 0.6 * ratio);
   const int reach = static_cast<int>(std::ceil(3.0 * sigma));
@@ -83,7 +104,7 @@ Stereo::Stereo(const Scenery& scenery, const View& view, const Surfaces& surface
 
 std::vector<float> Stereo::pattern() const {
   if (!(setup_.settings.dots > 0.0)) return {};
-  return dot_pattern(setup_.projector.width, setup_.projector.height, setup_.settings.dots,
+  return dot_pattern(setup_.projector.width, setup_.projector.height, setup_.settings.dots, setup_.pipeline.layout,
                      setup_.projector.fx / view_.lens.fx);
 }
 
@@ -147,39 +168,44 @@ std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit
   return out;
 }
 
-std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze,
-                                        const Random& random, double scale) const {
-  std::vector<float> values = signals(view, lit, haze);
-  for (float& value : values) value *= static_cast<float>(scale);
-  std::vector<std::uint8_t> bytes(values.size());
-  const auto width = static_cast<std::size_t>(view.lens.width);
-  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
+Stereo::Signals Stereo::signals() const {
+  const View second = render(scenery_, view_.lens, second_, setup_.near, setup_.far);
+  return {signals(view_, lit_, haze_), signals(second, lit(second), haze(second, rays_.of_piece(2)))};
+}
+
+std::vector<std::uint8_t> Stereo::image(std::vector<float> signals, const Random& random, double scale) const {
+  for (float& value : signals) value *= static_cast<float>(scale);
+  std::vector<std::uint8_t> bytes(signals.size());
+  const auto width = static_cast<std::size_t>(view_.lens.width);
+  in_parallel(static_cast<std::size_t>(view_.lens.height), [&](std::size_t row) {
     Random draw = random.of_piece(row);
-    imager_.expose(&values[row * width], width, draw);
+    imager_.expose(&signals[row * width], width, draw);
     for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-      bytes[i] = static_cast<std::uint8_t>(std::lround(255.0f * values[i]));
+      bytes[i] = static_cast<std::uint8_t>(std::lround(255.0f * signals[i]));
     }
   });
   return bytes;
 }
 
-Stereo::Pair Stereo::images(const Random& random, double scale) const {
-  const View second = render(scenery_, view_.lens, second_, setup_.near, setup_.far);
-  return {image(view_, lit_, haze_, random.of_piece(1), scale),
-          image(second, lit(second), haze(second, rays_.of_piece(2)), random.of_piece(2), scale)};
+Stereo::Pair Stereo::expose(const Signals& signals, const Random& random, double scale) const {
+  return {image(signals.first, random.of_piece(1), scale), image(signals.second, random.of_piece(2), scale)};
 }
 
-/// Each exposure is matched by itself; a pixel takes the longest that finds it and does not saturate there.
-Measurement Stereo::decoded(const Random& random) const {
-  Measurement out(view_.depth.size());
+Stereo::Pair Stereo::images(const Random& random, double scale) const {
+  return expose(signals(), random, scale);
+}
+
+/// Each exposure is matched by itself; a pixel takes the longest that finds it and does not saturate there. Returns the
+/// disparities; out receives signal and code.
+std::vector<float> Stereo::matched(const Signals& signals, const Random& random, Measurement& out) const {
   std::vector<float> merged(view_.depth.size(), std::numeric_limits<float>::quiet_NaN());
   const int least = static_cast<int>(std::floor(of_disparity(setup_.far)));
   for (std::size_t k = 0; k < scales_.size(); ++k) {
-    const Pair pair = images(k == 0 ? random : random.of_piece(2 + k), scales_[k]);
+    const Pair pair = expose(signals, k == 0 ? random : random.of_piece(2 + k), scales_[k]);
     const std::vector<float> disparity =
         match(pair, view_.lens.width, view_.lens.height, setup_.settings, setup_.pipeline, imager_, least);
     for (std::size_t i = 0; i < disparity.size(); ++i) {
-      if (out.validity[i] == Validity::valid) continue;
+      if (!std::isnan(merged[i])) continue;
       constexpr double grey = 1.0 / 255.0;  // a level, whose rounding is noise as well
       const double signal = grey * pair.first[i], z = of_disparity(disparity[i]);
       const bool last = k + 1 == scales_.size(), good = z >= setup_.near && z <= setup_.far && (last || signal < 1.0);
@@ -192,22 +218,70 @@ Measurement Stereo::decoded(const Random& random) const {
       if (good) merged[i] = disparity[i];
     }
   }
-  deliver(std::move(merged), out);
-  return out;
+  return merged;
 }
 
-/// What the device does after matching, and the depths that follow.
-void Stereo::deliver(std::vector<float>&& disparities, Measurement& out) const {
-  const StereoPipeline& s = setup_.pipeline;
-  if (setup_.noise) filter_spatially(s.spatial, view_.lens.width, view_.lens.height, disparities);
-  for (std::size_t i = 0; i < disparities.size(); ++i) {
-    if (out.validity[i] != Validity::valid) continue;
-    const double z = of_disparity(rounded_to_step(disparities[i], setup_.noise ? s.disparity_step : 0.0));
-    if (z >= setup_.near && z <= setup_.far)
-      out.depth[i] = z;
-    else
-      out.validity[i] = Validity::unmatched;
+Measurement Stereo::decoded(const Random& random) const {
+  constexpr std::uint64_t first_frame = 1000;  // pieces below are those of one frame
+  const Signals light = signals();
+  const int frames = setup_.noise ? setup_.pipeline.temporal.frames : 1;
+  TemporalAverage average(setup_.pipeline.temporal);
+  Measurement out(0);
+  std::vector<float> disparities;
+  for (int frame = 0; frame < frames; ++frame) {
+    out = Measurement(view_.depth.size());
+    disparities = matched(light, frame == 0 ? random : random.of_piece(first_frame + frame), out);
+    decimate(disparities, out);
+    filter_one(disparities);
+    if (frames > 1) average.add(disparities);
   }
+  return deliver(std::move(disparities), std::move(out));
+}
+
+/// One pixel of a square is the median or mean of its disparities; it has the mean of the signals, and without any
+/// disparity the code of the pixel in the middle.
+void Stereo::decimate(std::vector<float>& disparities, Measurement& out) const {
+  const int factor = setup_.noise ? setup_.pipeline.decimation : 1;
+  if (factor == 1) return;
+  const int width = view_.lens.width, columns = width / factor;
+  disparities = decimated(factor, width, view_.lens.height, disparities);
+  Measurement coarse(disparities.size());
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const std::size_t corner = i / columns * factor * width + i % columns * factor;
+    for (int k = 0; k < factor * factor; ++k) {
+      const std::size_t from = corner + static_cast<std::size_t>(k / factor) * width + k % factor;
+      coarse.intensity[i] += out.intensity[from] / static_cast<float>(factor * factor);
+      coarse.snr[i] += out.snr[from] / static_cast<float>(factor * factor);
+    }
+    coarse.validity[i] = out.validity[corner + static_cast<std::size_t>(factor / 2) * (width + 1)];
+  }
+  out = std::move(coarse);
+}
+
+/// What the device does with the disparities of one image.
+void Stereo::filter_one(std::vector<float>& disparities) const {
+  const StereoPipeline& s = setup_.pipeline;
+  if (!setup_.noise) return;
+  SpatialFilter spatial = s.spatial;
+  spatial.delta *= s.decimation;  // given in pixels of the delivered image
+  filter_spatially(spatial, view_.lens.width / s.decimation, view_.lens.height / s.decimation, disparities);
+}
+
+/// The depths that follow.
+Measurement Stereo::deliver(std::vector<float>&& disparities, Measurement&& out) const {
+  const StereoPipeline& s = setup_.pipeline;
+  if (setup_.noise)
+    fill_holes(s.hole_filling, view_.lens.width / s.decimation, view_.lens.height / s.decimation, disparities);
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const double z = of_disparity(rounded_to_step(disparities[i], setup_.noise ? s.disparity_step : 0.0));
+    if (z >= setup_.near && z <= setup_.far) {
+      out.depth[i] = z;
+      out.validity[i] = Validity::valid;
+    } else if (out.validity[i] == Validity::valid) {
+      out.validity[i] = Validity::unmatched;
+    }
+  }
+  return std::move(out);
 }
 
 double Stereo::scale_of(double signal) const {
@@ -232,7 +306,9 @@ double Stereo::depth_sigma(std::size_t pixel) const {
   if (lit_[pixel].code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
   const double z = view_.depth[pixel], step = setup_.pipeline.disparity_step;
   const double signal = white(lit_[pixel]), over = background(pixel), scale = scale_of(signal + over);
-  const double kept = spatially_filtered_noise(setup_.pipeline.spatial, noise_window());
+  const StereoPipeline& s = setup_.pipeline;
+  const double kept =
+      spatially_filtered_noise(s.spatial, noise_window() / s.decimation) * temporally_filtered_noise(s.temporal);
   const double sigma = std::hypot(kept * disparity_sigma(scale * signal, scale * over), step / std::sqrt(12.0));
   return sigma * z * z / of_disparity(1.0);
 }

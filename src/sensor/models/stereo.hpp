@@ -29,7 +29,8 @@ class Stereo {
     StereoPipeline pipeline{};
   };
   /// @param random  of the indirect light's samples
-  /// @param view  of the first camera, whose images are rectified: no distortion
+  /// @param view  of the first camera, whose images are rectified: no distortion. With noise, what is measured has
+  ///              1 / StereoPipeline::decimation of its width and height
   Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
          const Random& random = Random(0, 0, Stream::sensor));
 
@@ -54,11 +55,19 @@ class Stereo {
   std::vector<float> haze(const View& view, const Random& random) const;
   double ambient(const View& view, std::size_t pixel) const;
   std::vector<float> signals(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze) const;
-  std::vector<std::uint8_t> image(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze,
-                                  const Random& random, double scale) const;
+  /// Of both cameras, without noise.
+  struct Signals {
+    std::vector<float> first, second;
+  };
+  Signals signals() const;
+  std::vector<std::uint8_t> image(std::vector<float> signals, const Random& random, double scale) const;
+  Pair expose(const Signals& signals, const Random& random, double scale) const;
+  std::vector<float> matched(const Signals& signals, const Random& random, Measurement& out) const;
   /// The longest exposure of a signal that does not saturate, else the shortest.
   double scale_of(double signal) const;
-  void deliver(std::vector<float>&& disparities, Measurement& out) const;
+  void decimate(std::vector<float>& disparities, Measurement& out) const;
+  void filter_one(std::vector<float>& disparities) const;
+  Measurement deliver(std::vector<float>&& disparities, Measurement&& out) const;
   std::vector<char> surface_texture() const;
   struct Matchable {
     std::vector<float> disparity, sigma;
@@ -100,6 +109,6 @@ std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, in
 void refine(const Stereo::Pair& images, int width, int height, int window, std::vector<float>& disparities);
 
 /// Dots of a projector, blurred as a camera sees them whose pixels are `ratio` of the projector's: row-major, 0 to 1.
-std::vector<float> dot_pattern(int width, int height, double dots, double ratio);
+std::vector<float> dot_pattern(int width, int height, double dots, DotLayout layout, double ratio);
 
 }  // namespace bin_scenes

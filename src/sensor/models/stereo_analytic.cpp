@@ -1,6 +1,7 @@
 /// The analytic form of stereo: which pixels are matched, and by how much their disparities err, by formulas.
 #include "core/in_parallel.hpp"
 #include "sensor/models/census_expected.hpp"
+#include "sensor/models/disparity_filters.hpp"
 #include "sensor/models/noise_field.hpp"
 #include "sensor/models/stereo.hpp"
 
@@ -85,13 +86,15 @@ Measurement Stereo::analytic(const Random& random) const {
     const ExpectedCensus matcher(setup_.settings, setup_.pipeline, setup_.projector.fx / view_.lens.fx);
     matcher.match(width, height, random.of_piece(1), found.disparity);
   }
+  const double kept = temporally_filtered_noise(setup_.pipeline.temporal);
   const std::vector<float> field = correlated_noise(width, height, noise_window(), random);
   for (std::size_t i = 0; i < field.size(); ++i) {
-    found.disparity[i] += found.sigma[i] * field[i];
+    found.disparity[i] += static_cast<float>(kept) * found.sigma[i] * field[i];
     if (out.validity[i] == Validity::valid && std::isnan(found.disparity[i])) out.validity[i] = Validity::unmatched;
   }
-  deliver(std::move(found.disparity), out);
-  return out;
+  decimate(found.disparity, out);
+  filter_one(found.disparity);
+  return deliver(std::move(found.disparity), std::move(out));
 }
 
 /// Width of the window (pixel) whose noise a disparity averages. A signature weights the noise of its centre most.

@@ -4,6 +4,8 @@
 #include "sensor/models/of_sensor.hpp"
 #include "sensor/report_points.hpp"
 
+#include <optional>
+
 namespace bin_scenes {
 
 Stereo::Setup stereo_setup(const Sensor& s) {
@@ -22,6 +24,22 @@ Stereo::Setup stereo_setup(const Sensor& s) {
 namespace {
 
 const Names<StereoMatcher> matchers{{"semi_global", StereoMatcher::semi_global}, {"census", StereoMatcher::census}};
+const Names<DotLayout> layouts{{"random", DotLayout::random}, {"spread", DotLayout::spread}};
+const Names<HoleFilling> fillings{{"off", HoleFilling::off},
+                                  {"left", HoleFilling::left},
+                                  {"farthest", HoleFilling::farthest},
+                                  {"nearest", HoleFilling::nearest}};
+const Names<Persistence> persistences{
+    {"off", Persistence::off},
+    {"8_of_8", Persistence::eight_of_eight},
+    {"2_of_3", Persistence::two_of_three},
+    {"2_of_4", Persistence::two_of_four},
+    {"2_of_8", Persistence::two_of_eight},
+    {"1_of_2", Persistence::one_of_two},
+    {"1_of_5", Persistence::one_of_five},
+    {"1_of_8", Persistence::one_of_eight},
+    {"always", Persistence::always},
+};
 
 void visit_spatial(KeyVisitor& v, SpatialFilter& s) {
   v.field({"alpha", "", "weight of a pixel against the one before it; smaller = smoother, edges are wider",
@@ -34,6 +52,20 @@ void visit_spatial(KeyVisitor& v, SpatialFilter& s) {
           s.delta);
   v.field({"iterations", "", "each is a pass to the right, left, down and up; 0 = off", at_least(0.0, 10.0)},
           s.iterations);
+}
+
+void visit_temporal(KeyVisitor& v, TemporalFilter& s) {
+  v.field({"frames", "", "images of the scene at rest that are averaged; 1 = off; decoded: time grows with it",
+           at_least(1.0, 1000.0)},
+          s.frames);
+  v.field({"alpha", "", "weight of an image against the result before it; smaller = smoother", at_least(0.01, 1.0)},
+          s.alpha);
+  v.field({"delta", "pixel", "a pixel whose disparity differs from its last result by as much or more starts again",
+           at_least(0.0, 1000.0)},
+          s.delta);
+  v.field({"persistence", "",
+           "decoded: a missing pixel keeps its last result if it was measured in so many of the last images"},
+          s.persistence, persistences);
 }
 
 void visit_census(KeyVisitor& v, StereoPipeline& s) {
@@ -53,8 +85,19 @@ void visit_filters(KeyVisitor& v, StereoPipeline& s) {
            "rounded",
            at_least(0.0, 1.0)},
           s.disparity_step);
+  v.field({"decimation", "",
+           "with noise: the device matches images of so many times width and height, and a delivered pixel is the "
+           "median (2, 3) or mean (4 to 8) of a square; 1 = off; more = less noise, slower",
+           at_least(1.0, 8.0)},
+          s.decimation);
   v.section({"spatial", "", "edge-preserving recursive filter of disparities; holes are not filled"},
             [&s](KeyVisitor& inner) { visit_spatial(inner, s.spatial); });
+  v.section({"temporal", "", "exponential average of successive images"},
+            [&s](KeyVisitor& inner) { visit_temporal(inner, s.temporal); });
+  v.field({"hole_filling", "",
+           "with noise: a missing pixel takes the depth of the neighbour to the left, or of the farthest or nearest "
+           "among those to the left, above and below"},
+          s.hole_filling, fillings);
 }
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
@@ -79,6 +122,8 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   v.field(
       {"dots", "", "share of the projector's pixels that are dots; 0 = no pattern, passive stereo", at_least(0.0, 0.9)},
       s.dots);
+  v.field({"pattern", "", "random: each pixel of the projector by chance; spread: one dot in each square of a grid"},
+          pipeline.layout, layouts);
   v.field({"uniqueness", "%",
            "semi_global: by which the best match must beat the second; more = more holes, fewer outliers",
            at_least(0.0, 100.0)},
@@ -116,11 +161,22 @@ void check(const Sensor& sensor, const std::string& key) {
   }
 }
 
+/// The lens of the images that are matched: those that are delivered have fewer pixels.
+Lens matched_lens(const Sensor& sensor) {
+  Lens lens = lens_of(sensor);
+  const int factor = sensor.noise ? sensor.settings.of<StereoPipeline>().decimation : 1;
+  lens.width *= factor, lens.height *= factor;
+  lens.fx *= factor, lens.skew *= factor, lens.fy *= factor;
+  lens.cx = factor * (lens.cx + 0.5) - 0.5;
+  lens.cy = factor * (lens.cy + 0.5) - 0.5;
+  return lens;
+}
+
 /// The matcher's disparities are sixteenths of a pixel in 16 bits.
 void check_places(const Sensor& sensor, const std::string& where) {
   constexpr int most = 2047;
   const auto& s = sensor.settings.of<StereoSettings>();
-  const double least = lens_of(sensor).fx * s.baseline / sensor.far;
+  const double least = matched_lens(sensor).fx * s.baseline / sensor.far;
   if (sensor.fidelity == Fidelity::decoded && least + s.disparities > most)
     throw input_error("disparities of " + std::to_string(std::lround(least)) + " (at far) to " +
                           std::to_string(std::lround(least + s.disparities)) + " pixels, more than the " +
@@ -130,7 +186,10 @@ void check_places(const Sensor& sensor, const std::string& where) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  const Stereo model(scenery, view, surfaces, stereo_setup(sensor), rays_of(draw));
+  const Lens lens = matched_lens(sensor);
+  std::optional<View> fine;
+  if (lens.width != view.lens.width) fine = render(scenery, lens, view.pose, sensor.near, sensor.far);
+  const Stereo model(scenery, fine ? *fine : view, surfaces, stereo_setup(sensor), rays_of(draw));
   return image_by(model, sensor.fidelity, std::move(view), draw);
 }
 
@@ -142,7 +201,11 @@ void report(RangeImage& image, const Sensor& device, const Sensor& believed) {
 }
 
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
-  Plate plate(sensor, distance, incidence, albedo);
+  const Lens lens = matched_lens(sensor);
+  Sensor matched = sensor;
+  matched.width = lens.width, matched.height = lens.height;
+  matched.k = {lens.fx, lens.skew, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0};
+  Plate plate(matched, distance, incidence, albedo);
   const View view = plate.seen_at_center();
   return Stereo(plate.scenery, view, plate.surfaces, stereo_setup(sensor)).depth_sigma(view.depth.size() / 2);
 }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace bin_scenes {
@@ -92,6 +93,129 @@ TEST(SpatialFilter, HolesStayAndSeparate) {
     else
       ASSERT_NEAR(at(filtered, x, 75), x < 100 ? 40.0 : 40.5, 1e-4);
   }
+}
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+TEST(TemporalAverage, WhiteNoiseHasTheVarianceOfAnExponentialAverage) {
+  for (const int frames : {1, 2, 5, 30}) {
+    TemporalFilter settings;
+    settings.frames = frames;
+    settings.delta = 100.0;
+    TemporalAverage average(settings);
+    Random random(2, 0, Stream::noise);
+    std::vector<float> pixels(40000);
+    for (int frame = 0; frame < frames; ++frame) {
+      for (float& value : pixels) value = static_cast<float>(50.0 + 0.1 * random.normal());
+      average.add(pixels);
+    }
+    double square = 0.0;
+    for (const float value : pixels) square += std::pow(value - 50.0, 2);
+    // The sum of squared weights: alpha (1 - alpha)^k of the image k before the last one, (1 - alpha)^(n - 1) of the
+    // first.
+    double expected = std::pow(1.0 - settings.alpha, 2 * (frames - 1));
+    for (int k = 0; k + 1 < frames; ++k) expected += std::pow(settings.alpha * std::pow(1.0 - settings.alpha, k), 2);
+    EXPECT_NEAR(std::sqrt(square / 40000.0) / 0.1, std::sqrt(expected), 0.015 * std::sqrt(expected))
+        << frames;  // 4 sigma
+    EXPECT_NEAR(temporally_filtered_noise(settings), std::sqrt(expected), 1e-12);
+  }
+  TemporalFilter many;
+  many.frames = 200;
+  EXPECT_NEAR(std::pow(temporally_filtered_noise(many), 2), 0.4 / 1.6, 1e-9) << "alpha / (2 - alpha)";
+}
+
+TEST(TemporalAverage, ARampLagsAndAStepOfDeltaStartsAgain) {
+  TemporalAverage average({1, 0.4, 0.6, Persistence::off});
+  std::vector<float> pixel(1);
+  for (int frame = 0; frame < 60; ++frame) {
+    pixel = {40.0f + 0.1f * static_cast<float>(frame)};
+    average.add(pixel);
+  }
+  // It lags by the slope times (1 - alpha) / alpha.
+  EXPECT_NEAR(pixel[0], 40.0 + 5.9 - 0.1 * 0.6 / 0.4, 1e-4);
+  const double lagging = pixel[0];
+  pixel = {static_cast<float>(lagging + 0.59)};
+  average.add(pixel);
+  EXPECT_NEAR(pixel[0], lagging + 0.4 * 0.59, 1e-5);
+  const double before = pixel[0];
+  pixel = {static_cast<float>(before + 0.61)};
+  average.add(pixel);
+  EXPECT_NEAR(pixel[0], before + 0.61, 1e-5);
+}
+
+/// For each image whether the pixel has a value after the filter: measured where the text has an x.
+std::string persistent(Persistence persistence, const std::string& measured) {
+  TemporalAverage average({1, 0.4, 0.6, persistence});
+  std::string shown;
+  for (const char image : measured) {
+    std::vector<float> pixel{image == 'x' ? 40.0f : none};
+    average.add(pixel);
+    shown += std::isnan(pixel[0]) ? '.' : 'x';
+  }
+  return shown;
+}
+
+TEST(TemporalAverage, PersistenceCountsTheImagesBefore) {
+  EXPECT_EQ(persistent(Persistence::off, "xx.xxxxxxxxx."), "xx.xxxxxxxxx.");
+  EXPECT_EQ(persistent(Persistence::eight_of_eight, "xxxxxxx.xxxxxxxx.."), "xxxxxxx.xxxxxxxxx.");
+  EXPECT_EQ(persistent(Persistence::two_of_three, "x.x..x.."), "x.xx.x..");
+  EXPECT_EQ(persistent(Persistence::two_of_four, "x.x..x..."), "x.xxxxx..");
+  EXPECT_EQ(persistent(Persistence::two_of_eight, "x......x...."), "x......xx...");
+  EXPECT_EQ(persistent(Persistence::one_of_two, ".x...x.."), ".xxx.xxx");
+  EXPECT_EQ(persistent(Persistence::one_of_five, "x......."), "xxxxxx..");
+  EXPECT_EQ(persistent(Persistence::one_of_eight, "x.........."), "xxxxxxxxx..");
+  EXPECT_EQ(persistent(Persistence::always, "..x.........."), "..xxxxxxxxxxx");
+}
+
+TEST(HoleFilling, TakesTheNeighbourThatItNames) {
+  //                              farther, a hole, nearer: smaller disparities are farther away
+  const std::vector<float> image{10.0f, none,  30.0f,  //
+                                 20.0f, none,  none,   //
+                                 40.0f, 50.0f, 60.0f};
+  const auto filled = [&](HoleFilling filling) {
+    std::vector<float> out = image;
+    fill_holes(filling, 3, 3, out);
+    return out;
+  };
+  const std::vector<float> off = filled(HoleFilling::off);
+  EXPECT_TRUE(std::isnan(off[1]) && std::isnan(off[4]) && std::isnan(off[5]));
+  EXPECT_EQ(filled(HoleFilling::left), (std::vector<float>{10, 10, 30, 20, 20, 20, 40, 50, 60}));
+  EXPECT_EQ(filled(HoleFilling::farthest), (std::vector<float>{10, 10, 30, 20, 10, 10, 40, 50, 60}));
+  EXPECT_EQ(filled(HoleFilling::nearest), (std::vector<float>{10, 20, 30, 20, 50, 60, 40, 50, 60}));
+  std::vector<float> empty(9, none);
+  fill_holes(HoleFilling::nearest, 3, 3, empty);
+  for (const float value : empty) EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(Decimation, IsTheMedianOfDepthsAndFrom4OnTheirMean) {
+  // The depths 1 / d of the first square are 0.5, 0.25, 0.125 and 0.1; of the two in the middle 0.125 is the smaller
+  // one.
+  EXPECT_EQ(decimated(2, 5, 3,
+                      {2, 4, 5, none, 7,      //
+                       8, 10, none, none, 7,  //
+                       1, 1, 1, 1, 1}),
+            (std::vector<float>{8, 5}));
+  EXPECT_EQ(decimated(2, 2, 2, {none, 4, 5, 6}), (std::vector<float>{5}));
+  EXPECT_TRUE(std::isnan(decimated(2, 2, 2, {none, none, none, none})[0]));
+  std::vector<float> square(16, 2.0f);
+  square[3] = none;
+  for (int k = 8; k < 16; ++k) square[static_cast<std::size_t>(k)] = 4.0f;
+  EXPECT_NEAR(decimated(4, 4, 4, square)[0], 15.0 / (7.0 / 2.0 + 8.0 / 4.0), 1e-6);
+}
+
+TEST(Decimation, LowersWhiteNoiseAsAMedianAndAMeanDo) {
+  Random random(3, 0, Stream::noise);
+  std::vector<float> noisy(width * height);
+  for (float& value : noisy) value = static_cast<float>(100.0 + 0.1 * random.normal());
+  const auto deviation = [&](int factor) {
+    double square = 0.0, sum = 0.0;
+    const std::vector<float> out = decimated(factor, width, height, noisy);
+    for (const float value : out) square += std::pow(value - 100.0, 2), sum += value - 100.0;
+    const double n = static_cast<double>(out.size());
+    return std::sqrt(square / n - std::pow(sum / n, 2)) / 0.1;
+  };
+  EXPECT_NEAR(deviation(3), 0.4083, 0.017);  // median of nine normal variables: variance 0.1661 (Teichroew 1956)
+  EXPECT_NEAR(deviation(4), 0.25, 0.017);    // mean of sixteen; 4 sigma of 1850 and more squares
 }
 
 TEST(DisparityStep, IsTheNearestMultiple) {
