@@ -110,7 +110,7 @@ void take_clusters(const ClusterFilter& settings, RangeImage& image) {
       take_away(image, i, Validity::outlier);
 }
 
-/// Of an even number the smaller one in the middle.
+/// Replaces each depth by the median of the window; of an even number of depths, the smaller one of the central two.
 void take_medians(const MedianFilter& settings, RangeImage& image) {
   const int reach = settings.window / 2, width = image.width, height = image.height;
   const std::vector<float> depth = image.depth;
@@ -125,8 +125,8 @@ void take_medians(const MedianFilter& settings, RangeImage& image) {
         for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u)
           if (const float z = depth[static_cast<std::size_t>(v) * width + u]; !std::isnan(z)) found.push_back(z);
       const auto median = found.begin() + static_cast<std::ptrdiff_t>((found.size() - 1) / 2);
-      std::nth_element(found.begin(), middle, found.end());
-      image.depth[i] = *middle;
+      std::nth_element(found.begin(), median, found.end());
+      image.depth[i] = *median;
     }
   });
 }

@@ -154,9 +154,9 @@ std::vector<float> decimated(int factor, int width, int height, const std::vecto
       if (found.empty()) continue;
       float& pixel = out[row * static_cast<std::size_t>(columns) + column];
       if (factor <= largest_median) {
-        const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
-        std::nth_element(found.begin(), middle, found.end());
-        pixel = *middle;
+        const auto median = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+        std::nth_element(found.begin(), median, found.end());
+        pixel = *median;
       } else {
         float depths = 0.0f;  // of a camera with baseline * focal length = 1
         for (const float value : found) depths += 1.0f / value;
