@@ -101,8 +101,7 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
   const Vec3& size = scene->bin.inner_size;
   if (scene->bin.kind == Bin::Kind::box) view["size"] = {size.x(), size.y(), size.z()};
   std::map<int, int> object_of;
-  const std::string suffix = facts.bop.kind == BopLayout::Kind::classic ? "" : "_" + facts.bop.sensor;
-  const fs::path truth = folder.bop(facts, number) / ("scene_gt" + suffix + ".json");
+  const fs::path truth = BopFiles{folder.bop(facts, number), bop_suffix(facts.bop)}.truth();
   if (fs::is_regular_file(truth)) {
     const Json images = Json::parse(read_file(truth.string()));
     for (const Json& entry : images.value("0", Json::array())) object_of[entry.at("id")] = entry.at("obj_id");
@@ -114,9 +113,8 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
     int place = -1;
     const auto object = object_of.find(part.id);
     if (object != object_of.end()) {
-      char name[32];
-      std::snprintf(name, sizeof name, "obj_%06d.ply", object->second);
-      const fs::path ply = folder.root / "bop" / "models" / name;
+      const fs::path ply =
+          bop_model_file(BopFolder{folder.root / "bop"}.models(), static_cast<std::size_t>(object->second));
       if (!models.count(object->second) && fs::is_regular_file(ply)) {
         Json model = model_of(ply);
         triangles += model["triangles"].size() / 3;

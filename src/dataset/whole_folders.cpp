@@ -21,13 +21,6 @@ namespace {
 constexpr const char* manifest = "files.json";
 }  // namespace
 
-void make_directory(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error)
-    throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions and space");
-}
-
 std::vector<std::string> scene_formats() {
   return {"json", "pcd", "ply", "png", "bop", "bag", "mcap", "grasps"};
 }

@@ -17,8 +17,6 @@
 
 namespace bin_scenes {
 
-/// Throws an environment Error if a directory cannot be made.
-void make_directory(const std::filesystem::path& path);
 /// All that are known, whether this build has them or not.
 std::vector<std::string> scene_formats();
 /// Throws Error for formats that are unknown, or that this build lacks. `where`: the option that names them.

@@ -3,7 +3,6 @@
 
 #include "bin_scenes/mesh/mesh.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
-#include "output/mask_png.hpp"
 
 #include <array>
 #include <vector>
@@ -20,12 +19,18 @@ struct PixelBox {
   std::array<int, 4> first_to_last() const { return {left, top, right - left, bottom - top}; }
 };
 
+/// The number of pixels of one part in an image, and the box around them.
+struct Extent : PixelBox {
+  std::size_t count = 0;
+  void add(int x, int y) {
+    ++count;
+    extend(x, y);
+  }
+};
+
 /// By part id, of the pixels that truly show it.
 std::vector<PixelBox> visible_boxes(const RangeImage& image, std::size_t parts);
 /// Of the whole silhouette, hidden or outside the image included: the projected vertices.
 PixelBox projected_box(const Mesh& mesh, const Pose& model_in_camera, const Sensor& sensor);
-
-MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box);
-MaskBox whole_mask(const Silhouette& silhouette);
 
 }  // namespace bin_scenes

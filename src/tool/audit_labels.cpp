@@ -3,8 +3,8 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
+#include "bop/visibility.hpp"
 #include "core/in_parallel.hpp"
-#include "output/bop_visibility.hpp"
 #include "tool/label_compare.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
-#include "dataset/bop_files.hpp"
+#include "bop/files.hpp"
 #include "tool/camera_error.hpp"
 
 #include <map>

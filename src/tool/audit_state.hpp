@@ -3,7 +3,7 @@
 
 #include "bin_scenes/generate/generator.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
-#include "dataset/bop_reader.hpp"
+#include "bop/reader.hpp"
 #include "tool/audit_labels.hpp"
 
 #include <functional>

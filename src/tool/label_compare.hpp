@@ -1,7 +1,7 @@
 /// Compares a mask with the silhouette of the model at its stated pose: overlap and displacement.
 #pragma once
 
-#include "dataset/bop_files.hpp"
+#include "bop/files.hpp"
 
 #include <Eigen/Core>
 

@@ -2,9 +2,11 @@
 /// BOP's models are written once.
 #include "tool/scene_store.hpp"
 
+#include "bin_scenes/bop/bop_writer.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bop/root.hpp"
 #include "dataset/whole_folders.hpp"
 
 #include <charconv>
@@ -18,12 +20,6 @@ namespace bin_scenes {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string six_digits(std::size_t index) {
-  char text[24];
-  std::snprintf(text, sizeof(text), "%06zu", index);
-  return text;
-}
 
 /// The index that folder() made the name of, if it did.
 std::optional<std::size_t> index_of(const std::string& name) {
@@ -66,7 +62,7 @@ std::string SceneStore::folder(std::size_t index, bool accepted) const {
 }
 
 fs::path SceneStore::bop_folder(std::size_t index, bool accepted) const {
-  return root(accepted) / "bop" / "train" / six_digits(index);
+  return BopFolder{root(accepted) / "bop"}.scene("train", index);
 }
 
 bool SceneStore::complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const {
@@ -87,7 +83,7 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
       if (!there(base / (sensor.name + "_grasps_" + file_name_of(request.grippers[i]) + ".npy"))) return false;
   }
   const fs::path bop = bop_folder(index, accepted);
-  return !wants("bop") || (there(bop / "scene_gt.json") && whole(bop, verify_));
+  return !wants("bop") || (there(BopFiles{bop, ""}.truth()) && whole(bop, verify_));
 }
 
 std::set<std::size_t> SceneStore::indices(const Request& request) const {
@@ -147,7 +143,7 @@ void SceneStore::commit(const Generator::Result& result, const Request& request,
   const bool accepted = scene.report.accepted;
   if (wants("bop") && models_written_.count(accepted) == 0) {
     WholeFolders models;
-    models.write(root(accepted) / "bop" / "models",
+    models.write(BopFolder{root(accepted) / "bop"}.models(),
                  [&](const std::string& hidden) { write_bop_models(hidden, generator.loaded().parts); });
     models.commit();
     models_written_.insert(accepted);

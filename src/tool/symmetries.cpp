@@ -1,5 +1,5 @@
+#include "bin_scenes/bop/bop_writer.hpp"
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"

@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// The layout of the images of a BOP scene. output/bop_layout.hpp derives the paths from it.
+/// The layout of the images of a BOP scene. src/bop/layout.hpp derives the paths from it.
 struct BopLayout {
   enum class Kind {
     classic,    ///< folders gray/ and depth/ with scene_gt.json; image n belongs to sensor n
