@@ -1,5 +1,5 @@
 /// Reads BOP scenes of any generator, or of real images, and converts them to poses in one world frame for an audit.
-/// Images are read by bop_files.hpp.
+/// Images are read by files.hpp.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

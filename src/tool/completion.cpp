@@ -7,12 +7,14 @@
 #include "config/reference.hpp"
 #include "config/values.hpp"
 #include "dataset/whole_folders.hpp"
-#include "tool/completion_scripts.hpp"
 
 #include <algorithm>
 #include <set>
 
 namespace bin_scenes {
+
+extern const char* const completion_for_bash;
+extern const char* const completion_for_zsh;
 
 namespace {
 

@@ -5,10 +5,10 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/output/trace.hpp"
+#include "dataset/scene_store.hpp"
 #include "tool/commands.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/progress_bar.hpp"
-#include "tool/scene_store.hpp"
 
 #include <algorithm>
 #include <atomic>
