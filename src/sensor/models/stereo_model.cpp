@@ -2,10 +2,14 @@
 #include "bin_scenes/core/error.hpp"
 #include "sensor/models/census.hpp"
 #include "sensor/models/of_sensor.hpp"
+#include "sensor/models/stereo.hpp"
 #include "sensor/report_points.hpp"
 
 namespace bin_scenes {
 
+namespace {
+
+/// @param s  resolved()
 Stereo::Setup stereo_setup(const Sensor& s) {
   return {lens_of(s.projector),
           *s.projector.pose,
@@ -17,8 +21,6 @@ Stereo::Setup stereo_setup(const Sensor& s) {
           indirect_of(s),
           s.settings.of<StereoPipeline>()};
 }
-
-namespace {
 
 const Names<StereoMatcher> matchers{{"semi_global", StereoMatcher::semi_global}, {"census", StereoMatcher::census}};
 
