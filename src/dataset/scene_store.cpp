@@ -5,10 +5,12 @@
 #include "bin_scenes/bop/bop_writer.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/temporary.hpp"
+#include "bin_scenes/output/output_format.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bop/root.hpp"
 #include "dataset/whole_folders.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -44,13 +46,17 @@ SceneStore::SceneStore(const std::string& directory, const std::vector<std::stri
 }
 
 bool SceneStore::needs_sensors() const {
-  return wants("pcd") || wants("ply") || wants("png") || wants("bop");
+  return needs(SceneFormat::Needs::sensors);
 }
 bool SceneStore::needs_grasps() const {
   return wants("grasps");
 }
 bool SceneStore::needs_images() const {
-  return needs_sensors() || wants("bag") || wants("mcap") || wants("grasps");
+  return needs_sensors() || needs(SceneFormat::Needs::images);
+}
+bool SceneStore::needs(SceneFormat::Needs what) const {
+  return std::any_of(formats_.begin(), formats_.end(),
+                     [&](const std::string& name) { return find_scene_format(name)->needs == what; });
 }
 
 fs::path SceneStore::root(bool accepted) const {
@@ -72,16 +78,13 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
   };
   const fs::path base(folder);
   if (!whole(base, verify_)) return false;
-  if (wants("bag") && !there(base / "scene.bag")) return false;
-  if (wants("mcap") && mcap_profile_in((base / "scene.mcap").string()) != name_of(mcap_)) return false;
-  if (wants("grasps") && !there(base / "grasps.json")) return false;
-  for (const Sensor& sensor : request.sensors) {
-    if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
-    if (wants("ply") && !there(base / (sensor.name + ".ply"))) return false;
-    if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
-    for (std::size_t i = 0; wants("grasps") && i < request.grippers.size(); ++i)
-      if (!there(base / (sensor.name + "_grasps_" + file_name_of(request.grippers[i]) + ".npy"))) return false;
+  for (const OutputFormat& format : output_formats()) {
+    if (!wants(format.name) || !format.files) continue;
+    const std::vector<std::string> files = format.files(request);
+    if (!std::all_of(files.begin(), files.end(), [&](const std::string& name) { return there(base / name); }))
+      return false;
   }
+  if (wants("mcap") && mcap_profile_in((base / "scene.mcap").string()) != name_of(mcap_)) return false;
   const fs::path bop = bop_folder(index, accepted);
   return !wants("bop") || (there(BopFiles{bop, ""}.truth()) && whole(bop, verify_));
 }

@@ -55,7 +55,8 @@ class SceneStore {
   void commit(const Generator::Result& result, const Request& request, const Generator& generator);
 
  private:
-  bool wants(const char* format) const { return formats_.count(format) != 0; }
+  bool wants(const std::string& format) const { return formats_.count(format) != 0; }
+  bool needs(SceneFormat::Needs what) const;
   std::filesystem::path root(bool accepted) const;
   std::string folder(std::size_t index, bool accepted) const;
   std::filesystem::path bop_folder(std::size_t index, bool accepted) const;

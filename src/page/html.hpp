@@ -1,4 +1,5 @@
-/// Composes HTML pages that contain all their data and scripts.
+/// Building blocks of self-contained HTML pages: pages that open from the disk and load nothing from a network. `view`,
+/// `report` and `audit` use them.
 #pragma once
 
 #include "output/png.hpp"

@@ -1,5 +1,5 @@
-/// Writes scenes and models of BOP data sets whose folders are scenes. Each file is written under a temporary name and renamed; a full disk or
-/// an unwritable directory is an environment Error.
+/// Writes scenes and models of BOP data sets whose folders are scenes. Each file is written under a temporary name and
+/// renamed; a full disk or an unwritable directory is an environment Error.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
