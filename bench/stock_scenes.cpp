@@ -2,9 +2,9 @@
 /// bin, stock Bullet simulates ten seconds, whatever lies there then is the scene.
 ///
 ///     bin_scenes_bench_stock REQUEST.yaml OUT SCENES
+#include "bin_scenes/bop/bop_writer.hpp"
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/pour/heap.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"

@@ -30,6 +30,47 @@ std::string bop_loss(const std::vector<Sensor>& sensors) {
   return cut ? "BOP's files hold the upper 8 bits of pictures of 16; png and image.png of shards hold all" : "";
 }
 
+namespace {
+
+std::vector<SceneFormat>& formats() {
+  using Needs = SceneFormat::Needs;
+  static std::vector<SceneFormat> all = {{"json"},
+                                         {"pcd", Needs::sensors},
+                                         {"ply", Needs::sensors},
+                                         {"png", Needs::sensors},
+                                         {"bop", Needs::sensors},
+                                         {"bag", Needs::images},
+                                         {"mcap", Needs::images},
+                                         {"grasps", Needs::images}};
+  return all;
+}
+
+}  // namespace
+
+const std::vector<SceneFormat>& scene_formats() {
+  return formats();
+}
+
+const SceneFormat* find_scene_format(const std::string& name) {
+  const auto known =
+      std::find_if(formats().begin(), formats().end(), [&](const SceneFormat& format) { return format.name == name; });
+  return known == formats().end() ? nullptr : &*known;
+}
+
+void add_scene_format(const SceneFormat& format) {
+  formats().push_back(format);
+}
+
+std::string format_names(const char* last, const std::vector<std::string>& more) {
+  std::vector<std::string> names;
+  for (const SceneFormat& format : formats()) names.push_back(format.name);
+  names.insert(names.end(), more.begin(), more.end());
+  std::string text = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i)
+    text += (i + 1 < names.size() ? ", " : std::string(" ") + last + " ") + names[i];
+  return text;
+}
+
 const char* name_of(McapProfile profile) {
   return profile == McapProfile::ros1 ? "ros1" : "ros2";
 }

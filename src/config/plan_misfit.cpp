@@ -6,7 +6,11 @@ namespace bin_scenes::config {
 
 std::optional<Error> misfit(const Plan& plan, const Request& request) {
   const bool bop = plan.wants("bop") || plan.wants("shards");
-  if ((bop || plan.wants("png") || plan.wants("pcd") || plan.wants("ply")) && request.sensors.empty())
+  const bool needs_sensors = std::any_of(plan.formats.begin(), plan.formats.end(), [](const std::string& name) {
+    const SceneFormat* format = find_scene_format(name);
+    return format && format->needs == SceneFormat::Needs::sensors;
+  });
+  if ((bop || needs_sensors) && request.sensors.empty())
     return input_error("the outputs show what a sensor sees, but the request has no sensors", "outputs",
                        "add `sensors: [{name: camera}]`, or leave such outputs out");
   if ((plan.wants("grasps") || plan.depletion.by_grasp) && request.grippers.empty())

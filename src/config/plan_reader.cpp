@@ -95,15 +95,12 @@ class PlanFile {
   void read_outputs(const YAML::Node& node) {
     plan_.formats = {"json"};
     if (!node) return;
-    if (!node.IsSequence())
-      return complain("expected a list", "outputs", "of json, pcd, ply, png, bag, mcap, grasps, bop, shards");
+    if (!node.IsSequence()) return complain("expected a list", "outputs", "of " + format_names("and", {"shards"}));
     plan_.formats.clear();
     for (const YAML::Node& item : node) {
       const std::string name = item.IsScalar() ? item.Scalar() : "";
-      const std::vector<std::string> known = {"json", "pcd", "ply", "png", "bag", "mcap", "grasps", "bop", "shards"};
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        complain("unknown output '" + name + "'", "outputs",
-                 "known are json, pcd, ply, png, bag, mcap, grasps, bop and shards");
+      if (!find_scene_format(name) && name != "shards")
+        complain("unknown output '" + name + "'", "outputs", "known are " + format_names("and", {"shards"}));
       plan_.formats.push_back(name);
     }
   }

@@ -8,6 +8,8 @@
 #include "core/read_file.hpp"
 #include "dataset/whole_folders.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -98,6 +100,21 @@ fs::path DataFolder::samples(std::size_t scene) const {
 }
 fs::path DataFolder::shard(std::size_t shard) const {
   return shards() / (numbered("shard-", shard) + ".tar");
+}
+
+BopFolder bop_folder(const DataFolder& folder, const DataSetFacts& facts) {
+  BopFolder bop{folder.root / "bop", facts.bop, facts.tolerance, facts.run_lengths, facts.most_targets, facts.version};
+  for (const auto& [split, share] : facts.split) bop.splits.push_back(split);
+  for (const std::string& split : bop.splits) {
+    const std::vector<std::size_t> scenes = bop.scenes(split);
+    if (scenes.empty()) continue;
+    const auto scene = scene_in(folder.scene(scenes.front()));
+    if (!scene) continue;
+    bop.sensors.assign(scene->sensors.begin(), scene->sensors.end());
+    bop.first_split = split;
+    break;
+  }
+  return bop;
 }
 
 bool DataSetFacts::wants(const std::string& format) const {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "bin_scenes/config/plan.hpp"
+#include "bop/root.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -57,6 +58,9 @@ struct DataFolder {
   std::filesystem::path shards() const { return root / "shards"; }
   std::filesystem::path shard(std::size_t shard) const;
 };
+
+/// Its folder in BOP's layout, as far as it is made.
+BopFolder bop_folder(const DataFolder& folder, const DataSetFacts& facts);
 
 DataSetFacts facts_of(const Plan& plan);
 /// Throws an input Error if DIR is no data set.

@@ -5,6 +5,8 @@
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bop/samples.hpp"
+#include "bop/writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
 
@@ -306,10 +308,10 @@ void write_models(const Plan& plan, const DataFolder& folder) {
       given.discrete.push_back({parts.back()->mass().center - turn * parts.back()->mass().center, turn});
     symmetries.push_back(given);
   }
+  const BopFolder bop{folder.root / "bop"};
   WholeFolders folders;
-  folders.write(folder.root / "bop" / "models",
-                [&](const std::string& hidden) { write_bop_models(hidden, parts, symmetries); });
-  folders.write(folder.root / "bop" / "models_eval",
+  folders.write(bop.models(), [&](const std::string& hidden) { write_bop_models(hidden, parts, symmetries); });
+  folders.write(bop.models_eval(),
                 [&](const std::string& hidden) { write_bop_models(hidden, parts, symmetries, true); });
   folders.commit();
 }

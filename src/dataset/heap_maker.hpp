@@ -4,10 +4,10 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
+#include "bop/image.hpp"
 #include "dataset/data_folder.hpp"
 #include "dataset/record.hpp"
 #include "dataset/whole_folders.hpp"
-#include "output/bop_image.hpp"
 
 #include <map>
 #include <optional>

@@ -3,7 +3,6 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "core/read_file.hpp"
-#include "dataset/bop_root.hpp"
 #include "dataset/heap_maker.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/shards.hpp"
@@ -107,7 +106,7 @@ Merged merge_datasets(const std::vector<std::string>& shares, const std::string&
   merged.missing = facts.heaps - known.size();
   for (const char* models : {"models", "models_eval"})
     take_over(folders[0].root / "bop" / models, to.root / "bop" / models);
-  if (facts.wants("bop")) write_bop_root(to, facts);
+  if (facts.wants("bop")) write_bop_root(bop_folder(to, facts));
   if (facts.wants("shards")) {
     ShardPacker packer(to, facts, {});
     if (merged.missing == 0) packer.pack_all();

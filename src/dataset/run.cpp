@@ -4,7 +4,6 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
-#include "dataset/bop_root.hpp"
 #include "dataset/heap_maker.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/shards.hpp"
@@ -180,7 +179,7 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
   progress.phase = "pack";
   report();
   if (plan.wants("bop") || plan.wants("shards")) write_models(plan, folder);
-  if (plan.wants("bop")) write_bop_root(folder, facts);
+  if (plan.wants("bop")) write_bop_root(bop_folder(folder, facts));
   if (packer) packer->pack_all();
   const IndexCounts all = index.counts();
   progress.not_poured = all.not_poured;

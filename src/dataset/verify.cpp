@@ -1,18 +1,18 @@
-/// The list of invariants, and the checks of files and index. Scenes, BOP's files and shards have files of their own
-/// (verify_scene.cpp, verify_bop.cpp, verify_shards.cpp).
+/// The list of invariants, and the checks of files and index. Scenes and shards have files of their own
+/// (verify_scene.cpp, verify_shards.cpp), BOP's files bop/verify.cpp.
 #include "dataset/verify.hpp"
 
 #include "bin_scenes/core/sha256.hpp"
+#include "bop/verify.hpp"
 #include "core/in_parallel.hpp"
 #include "core/read_file.hpp"
-#include "dataset/bop_root.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/whole_folders.hpp"
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
-#include <tuple>
 
 namespace bin_scenes {
 
@@ -100,36 +100,7 @@ void verify_differences(const DataFolder& folder, Findings& findings) {
   }
 }
 
-void verify_root(const DataFolder& folder, const DataSetFacts& facts, Findings& findings) {
-  for (const auto& [name, text] : bop_root_files(folder, facts)) {
-    const fs::path path = folder.root / "bop" / name;
-    findings.expect(fs::is_regular_file(path) && read_file(path.string()) == text, "bop_root", path.string(),
-                    "is missing, or not what the scenes imply");
-  }
-}
-
 }  // namespace
-
-bool Findings::expect(bool holds, const char* check, const std::string& where, const std::string& text) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  ++checked_[check];
-  if (!holds) all_.push_back({check, where, text});
-  return holds;
-}
-
-std::vector<Finding> Findings::sorted() const {
-  std::vector<Finding> all = all_;
-  std::sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
-    return std::tie(a.where, a.check, a.text) < std::tie(b.where, b.check, b.text);
-  });
-  return all;
-}
-
-std::optional<nlohmann::json> json_map_in(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
-  const nlohmann::json json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
-  return json.is_object() ? std::optional<nlohmann::json>(json) : std::nullopt;
-}
 
 const std::vector<std::pair<const char*, const char*>>& invariants() {
   static const std::vector<std::pair<const char*, const char*>> all(std::begin(known_invariants),
@@ -204,9 +175,13 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
   }
   verify_index(folder, facts, findings);
   verify_differences(folder, findings);
-  const std::map<int, BopModel> models =
-      facts.wants("bop") || facts.wants("shards") ? verify_models(folder, findings) : std::map<int, BopModel>();
-  if (facts.wants("bop")) verify_root(folder, facts, findings);
+  const BopFolder bop = bop_folder(folder, facts);
+  std::map<int, BopModel> models;
+  if (facts.wants("bop") || facts.wants("shards")) {
+    models = verify_models(bop, findings);
+    for (const fs::path& path : {bop.models(), bop.models_eval()}) verify_files(path, findings);
+  }
+  if (facts.wants("bop")) verify_bop_root(bop, findings);
   // Only the whole data set is packed into shards: a share has its samples instead.
   const bool is_whole = SceneIndex(folder.index(), true).shares().count({0, 1}) == 1;
   std::vector<std::size_t> there;
@@ -217,12 +192,11 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
     verify_scene(folder, facts, there[i], findings);
     if (facts.wants("shards") && !is_whole) verify_files(folder.samples(there[i]), findings);
     if (!facts.wants("bop")) return;
-    const fs::path bop = folder.bop(facts, there[i]);
-    if (findings.expect(fs::exists(bop), "bop_json", bop.string(), "is missing")) {
-      verify_files(bop, findings);
-      if (const auto scene = scene_in(folder.scene(there[i])))
-        verify_bop(folder, facts, there[i], *scene, models, findings);
-    }
+    const fs::path own = folder.scene(there[i]), path = folder.bop(facts, there[i]);
+    if (!findings.expect(fs::exists(path), "bop_json", path.string(), "is missing")) return;
+    verify_files(path, findings);
+    if (const auto scene = scene_in(own))
+      verify_bop(bop, {path, own, facts.split_of_scene(there[i]), *scene, facts.wants("png")}, models, findings);
   });
   if (facts.wants("shards") && is_whole) verify_shards(folder, facts, findings);
 }

@@ -3,9 +3,9 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
 #include "bin_scenes/sensor/validity.hpp"
-#include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
 #include "dataset/whole_folders.hpp"
+#include "output/boxes.hpp"
 #include "output/png_reader.hpp"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "dataset/whole_folders.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/output_format.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 
@@ -21,27 +22,12 @@ namespace {
 constexpr const char* manifest = "files.json";
 }  // namespace
 
-void make_directory(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error)
-    throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions and space");
-}
-
-std::vector<std::string> scene_formats() {
-  return {"json", "pcd", "ply", "png", "bop", "bag", "mcap", "grasps"};
-}
-
 void check_formats(const std::set<std::string>& formats, const std::string& where) {
-  const std::vector<std::string> known = scene_formats();
-  for (const std::string& format : formats) {
-    if (std::find(known.begin(), known.end(), format) == known.end())
-      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop, bag, mcap or grasps");
-  }
-  for (const auto& [recording, writable] :
-       {std::pair("bag", bool(bag_writer())), std::pair("mcap", bool(mcap_writer()))}) {
-    if (formats.count(recording) == 0 || writable) continue;
-    throw environment_error("this build has no ROS, whose messages '" + std::string(recording) + "' holds", where,
+  for (const std::string& format : formats)
+    if (!find_scene_format(format)) throw input_error("unknown format '" + format + "'", where, format_names("or"));
+  for (const OutputFormat& format : output_formats()) {
+    if (formats.count(format.name) == 0 || !format.available || format.available()) continue;
+    throw environment_error("this build has no ROS, whose messages '" + format.name + "' holds", where,
                             "build with -DBIN_SCENES_ROS=ON, or ask for json, pcd, ply, png or bop");
   }
 }
@@ -101,23 +87,10 @@ bool has_manifest(const std::string& folder) {
 
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
                        const LoadedRequest& loaded, McapProfile mcap) {
-  const fs::path base(folder);
-  for (const RangeImage& image : result.images) {
-    if (formats.count("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
-    if (formats.count("ply")) write_ply((base / (image.sensor.name + ".ply")).string(), image);
-    if (formats.count("png")) write_pngs(folder, image);
-  }
-  if (formats.count("bag")) bag_writer()((base / "scene.bag").string(), result.scene, loaded, result.images);
-  if (formats.count("mcap")) mcap_writer()((base / "scene.mcap").string(), mcap, result.scene, loaded, result.images);
-  if (formats.count("grasps") && result.grasps) {
-    write_text((base / "grasps.json").string(), grasps_json(*result.grasps, result.scene, loaded.request));
-    for (const Sensor& sensor : result.scene.sensors)
-      for (std::size_t i = 0; i < loaded.request.grippers.size(); ++i)
-        write_text((base / (sensor.name + "_grasps_" + file_name_of(loaded.request.grippers[i]) + ".npy")).string(),
-                   grasps_npy(*result.grasps, sensor, loaded.request, i));
-    for (const RangeImage& image : result.images) write_grasp_maps(folder, image, *result.grasps, loaded.request);
-  }
-  write_text((base / "scene.json").string(), scene_json(result.scene, loaded, result.images));
+  const SceneOutput output{result.scene, loaded, result.images, result.grasps ? &*result.grasps : nullptr, mcap};
+  for (const OutputFormat& format : output_formats())
+    if (formats.count(format.name) && format.write) format.write(folder, output);
+  write_text((fs::path(folder) / "scene.json").string(), scene_json(result.scene, loaded, result.images));
 }
 
 WholeFolders::~WholeFolders() {

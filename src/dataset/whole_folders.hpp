@@ -17,10 +17,6 @@
 
 namespace bin_scenes {
 
-/// Throws an environment Error if a directory cannot be made.
-void make_directory(const std::filesystem::path& path);
-/// All that are known, whether this build has them or not.
-std::vector<std::string> scene_formats();
 /// Throws Error for formats that are unknown, or that this build lacks. `where`: the option that names them.
 void check_formats(const std::set<std::string>& formats, const std::string& where);
 /// Before hours of simulation, not after them: the nearest directory that exists has to take new files.
@@ -36,7 +32,7 @@ bool has_manifest(const std::string& folder);
 /// A folder without the list of its files is of a run that was killed, or of an earlier version.
 bool whole(const std::filesystem::path& folder, bool digests);
 
-/// The files of one scene in the formats json, pcd, ply, png, bag, mcap and grasps.
+/// scene.json, and the files of the formats that are named (output/output_format.hpp), but for BOP's folder.
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
                        const LoadedRequest& loaded, McapProfile mcap = McapProfile::ros1);
 

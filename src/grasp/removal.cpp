@@ -4,6 +4,7 @@
 #include "grasp/removal.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/core/contact.hpp"
 #include "bin_scenes/quality/quality.hpp"
 #include "grasp/overlap.hpp"
 #include "grasp/rays.hpp"
@@ -48,10 +49,6 @@ bool stands_over(const PlacedPart& other, const PlacedPart& part, const Vec3& di
     for (const Passage& passage : passages(*other.mesh, into * top, along, from))
       if (passage.distance < limit && other.mesh->mesh().area_vector(passage.triangle).dot(along) < 0.0) return true;
   return false;
-}
-
-double pair_friction(double a, double b) {
-  return std::sqrt(a * b);
 }
 
 class Forces {

@@ -43,29 +43,4 @@ PixelBox projected_box(const Mesh& mesh, const Pose& model_in_camera, const Sens
   return box;
 }
 
-MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box) {
-  MaskBox mask;
-  if (box.empty()) return mask;
-  BIN_SCENES_ASSERT(box.left >= 0 && box.top >= 0 && box.right < image.sensor.width &&
-                    box.bottom < image.sensor.height);
-  mask.left = box.left, mask.top = box.top;
-  mask.width = box.right - box.left + 1, mask.height = box.bottom - box.top + 1;
-  for (int y = box.top; y <= box.bottom; ++y) {
-    const std::uint16_t* label = &image.seen_label()[static_cast<std::size_t>(y) * image.sensor.width + box.left];
-    for (int x = 0; x < mask.width; ++x) mask.inside.push_back(label[x] == id + 1);
-  }
-  return mask;
-}
-
-MaskBox whole_mask(const Silhouette& s) {
-  MaskBox mask{s.left, s.top, s.width, s.height, {}};
-  BIN_SCENES_ASSERT(s.bits.size() == s.words_per_row() * static_cast<std::size_t>(s.height));
-  mask.inside.reserve(static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height));
-  for (int y = 0; y < s.height; ++y) {
-    const std::uint64_t* row = &s.bits[static_cast<std::size_t>(y) * s.words_per_row()];
-    for (int x = 0; x < s.width; ++x) mask.inside.push_back(row[x / 64] >> (x % 64) & 1u);
-  }
-  return mask;
-}
-
 }  // namespace bin_scenes

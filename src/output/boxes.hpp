@@ -3,7 +3,6 @@
 
 #include "bin_scenes/mesh/mesh.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
-#include "output/mask_png.hpp"
 
 #include <array>
 #include <vector>
@@ -20,13 +19,19 @@ struct PixelBox {
   std::array<int, 4> first_to_last() const { return {left, top, right - left, bottom - top}; }
 };
 
+/// The number of pixels of one part in an image, and the box around them.
+struct Extent : PixelBox {
+  std::size_t count = 0;
+  void add(int x, int y) {
+    ++count;
+    extend(x, y);
+  }
+};
+
 /// Returns, by part id, the boxes of the pixels that truly show the part.
 std::vector<PixelBox> visible_boxes(const RangeImage& image, std::size_t parts);
 /// Returns the box of the whole silhouette, including what is hidden or outside the image: that of the projected
 /// vertices.
 PixelBox projected_box(const Mesh& mesh, const Pose& model_in_camera, const Sensor& sensor);
-
-MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box);
-MaskBox whole_mask(const Silhouette& silhouette);
 
 }  // namespace bin_scenes

@@ -55,6 +55,13 @@ void write_text(const std::string& path, const std::string& text) {
   write_bytes(path, text.data(), text.size());
 }
 
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error)
+    throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions and space");
+}
+
 namespace {
 BagWriter& registered_bag_writer() {
   static BagWriter writer;

@@ -33,11 +33,6 @@ void check_exposures(const std::string& key, const std::vector<double>& exposure
   throw input_error("does not ascend", key, "list each exposure once, the shortest first: [0.2, 0.8, 3.2]");
 }
 
-void check_baseline(const std::string& key, double baseline) {
-  if (baseline == 0.0)
-    throw input_error("is 0: without it there is no triangle to measure with", key, "0.1 to 0.3 m is usual");
-}
-
 void check_outliers(const std::string& key, const OutlierFilter& outlier) {
   if (outlier.window % 2 == 0)
     throw input_error("is even: a window has a center", key + ".window", "3, 5 or 7 is usual");
@@ -70,11 +65,6 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   check_outliers(key + ".filter.outlier", sensor.settings.of<FilterSettings>().outlier);
   check_median(key + ".filter.median", sensor.settings.of<FilterSettings>().median);
   check_smoothing(key + ".filter.smoothing", sensor);
-  check_baseline(key + ".projector.baseline", sensor.projector.baseline);
-  check_baseline(key + ".laser.baseline", sensor.laser.baseline);
-  const Vec3& direction = sensor.scan.direction;
-  if (!direction.allFinite() || !(direction.norm() > 0.0))
-    throw input_error("is no direction", key + ".scan.direction", "for instance [1, 0, 0]");
   if (sensor.bounces.value_or(0) > 0 && !sensor_model(sensor.model).indirect)
     throw input_error("indirect light is no part of model " + sensor.model, key + ".bounces",
                       "leave it out; models that see such light: " + names_of(&SensorModel::indirect));

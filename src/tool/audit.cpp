@@ -1,10 +1,10 @@
 /// The command `audit`: reads options and data set, audits heap by heap, and prints what is wrong.
+#include "audit/auditor.hpp"
+#include "audit/judge.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "dataset/whole_folders.hpp"
-#include "tool/audit_judge.hpp"
-#include "tool/audit_page.hpp"
-#include "tool/audit_state.hpp"
+#include "page/audit_page.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
 

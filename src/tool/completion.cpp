@@ -7,12 +7,14 @@
 #include "config/reference.hpp"
 #include "config/values.hpp"
 #include "dataset/whole_folders.hpp"
-#include "tool/completion_scripts.hpp"
 
 #include <algorithm>
 #include <set>
 
 namespace bin_scenes {
+
+extern const char* const completion_for_bash;
+extern const char* const completion_for_zsh;
 
 namespace {
 
@@ -106,6 +108,12 @@ Words with(Words words, const std::string& last) {
   return words;
 }
 
+Words formats() {
+  Words names;
+  for (const SceneFormat& format : scene_formats()) names.push_back(format.name);
+  return names;
+}
+
 template <class Enum>
 Words names_of() {
   return config::word_of(Enum{}).known;
@@ -114,7 +122,7 @@ Words names_of() {
 /// Values of an option or a positional word.
 Words values_of(const std::string& command, const std::string& option, const std::string& begun) {
   if (option == "--set") return assignments(begun);
-  if (option == "--formats") return list_of(scene_formats(), begun);
+  if (option == "--formats") return list_of(formats(), begun);
   if (option == "--unit") return names_of<Unit>();
   if (option == "--solver") return names_of<SolverType>();
   if (option == "SENSOR") return with(sensor_presets(), requests);

@@ -1,7 +1,6 @@
 /// The command `dataset` and those below it: reads options, listens to signals, prints progress. The work is in
 /// src/dataset.
 #include "bin_scenes/config/plan.hpp"
-#include "dataset/bop_root.hpp"
 #include "dataset/data_folder.hpp"
 #include "dataset/merge.hpp"
 #include "dataset/run.hpp"
@@ -36,6 +35,10 @@ void read_shard(const std::string& text, RunOptions& run) {
   const bool read = std::sscanf(text.c_str(), "%zu/%zu%c", &run.shard, &run.shards, &behind) == 2;
   if (!read || text[0] == '-' || run.shards == 0 || run.shards > 1'000'000 || run.shard >= run.shards)
     throw input_error("expected i/n with i from 0 to n - 1, found '" + text + "'", "--shard", "for instance 0/8");
+}
+
+BopFolder bop_in(const std::string& directory) {
+  return bop_folder({directory}, read_facts(directory));
 }
 
 /// One line on a terminal, or a line of JSON at most twice a second.
@@ -110,7 +113,7 @@ int dataset(const DatasetOptions& options) {
     std::fprintf(stderr, "bin_scenes: warning: %zu of %zu parts found no room: ask for fewer, or enlarge the bin\n",
                  end.not_poured, end.asked_for);
   if (plan.wants("bop"))
-    if (const std::string crowded = crowded_targets({options.out}); !crowded.empty())
+    if (const std::string crowded = crowded_targets(bop_in(options.out)); !crowded.empty())
       std::fprintf(stderr, "bin_scenes: warning: %s\n", crowded.c_str());
   if (end.failed == 0) return exit_done;
   std::fprintf(stderr, "bin_scenes: %zu of %zu heaps were not accepted in %zu attempts each, see %s/set_apart\n",
@@ -162,8 +165,9 @@ int dataset_toolkit(const ToolkitOptions& options) {
   if (!good)
     throw input_error("'" + options.name + "' is no name that bop_toolkit reads back from a file of results", "--name",
                       "small letters and digits");
-  std::printf("%s", toolkit_entry({options.directory}, options.name).c_str());
-  if (const std::string crowded = crowded_targets({options.directory}, options.name); !crowded.empty())
+  const BopFolder bop = bop_in(options.directory);
+  std::printf("%s", toolkit_entry(bop, options.name).c_str());
+  if (const std::string crowded = crowded_targets(bop, options.name); !crowded.empty())
     std::fprintf(stderr, "bin_scenes: warning: %s\n", crowded.c_str());
   return exit_done;
 }

@@ -6,10 +6,10 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/output/trace.hpp"
 #include "bin_scenes/pour/contact_action.hpp"
+#include "dataset/scene_store.hpp"
 #include "tool/commands.hpp"
 #include "tool/interrupt.hpp"
 #include "tool/progress_bar.hpp"
-#include "tool/scene_store.hpp"
 
 #include <algorithm>
 #include <atomic>

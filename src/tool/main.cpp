@@ -36,7 +36,7 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--scenes", o.scenes, "number of scenes");
   app.add_option("--first", o.first, "index of the first scene, to split a job");
   app.add_option("--solver", o.solver, "auto, sphere or bullet");
-  app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag, mcap, grasps; scene.json is always written")
+  app.add_option("--formats", o.formats, "of " + format_names("and") + "; scene.json is always written")
       ->delimiter(',');
   app.add_option("--mcap", o.mcap, "whose messages the format mcap holds: ros1, as without it, or ros2");
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");

@@ -5,8 +5,8 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "dataset/whole_folders.hpp"
+#include "generate/fitted_bin.hpp"
 #include "tool/commands.hpp"
-#include "tool/fitted_bin.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/unit_option.hpp"
 

@@ -1,4 +1,4 @@
-#include "dataset/report.hpp"
+#include "page/report.hpp"
 
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"

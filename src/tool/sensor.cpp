@@ -1,9 +1,9 @@
 #include "bin_scenes/config/sensor_presets.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/metrics.hpp"
+#include "page/sensor_plot.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
-#include "tool/sensor_plot.hpp"
 
 #include <nlohmann/json.hpp>
 

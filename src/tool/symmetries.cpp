@@ -1,9 +1,9 @@
+#include "bin_scenes/bop/bop_writer.hpp"
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/symmetry.hpp"
+#include "page/symmetry_picture.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
-#include "tool/symmetry_picture.hpp"
 #include "tool/unit_option.hpp"
 
 #include <nlohmann/json.hpp>

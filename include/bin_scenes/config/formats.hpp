@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// The layout of the images of a BOP scene. output/bop_layout.hpp derives the paths from it.
+/// The layout of the images of a BOP scene. src/bop/layout.hpp derives the paths from it.
 struct BopLayout {
   enum class Kind {
     classic,    ///< folders gray/ and depth/ with scene_gt.json; image n belongs to sensor n
@@ -34,6 +34,24 @@ std::string bop_misfit(const Sensor& sensor);
 extern const char* const bop_misfit_remedy;
 /// Returns which information of the sensors the BOP files omit, or "" if they omit nothing.
 std::string bop_loss(const std::vector<Sensor>& sensors);
+
+/// A format in which scenes are written, as far as requests and plans know it (output/output_format.hpp).
+struct SceneFormat {
+  std::string name;  ///< of the option --formats and of the plan's key `outputs`
+  enum class Needs {
+    scene,   ///< poses and report alone
+    images,  ///< what sensors see, if there are any
+    sensors  ///< it shows nothing but what a sensor sees
+  };
+  Needs needs = Needs::scene;
+};
+/// In the order of lists; those of this library, then those that the program has added.
+const std::vector<SceneFormat>& scene_formats();
+/// Null: unknown.
+const SceneFormat* find_scene_format(const std::string& name);
+void add_scene_format(const SceneFormat& format);
+/// "json, pcd and ply". @param last  "and" or "or"; @param more  names that follow
+std::string format_names(const char* last, const std::vector<std::string>& more = {});
 
 enum class McapProfile {
   ros1,

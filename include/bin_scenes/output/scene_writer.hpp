@@ -1,4 +1,4 @@
-/// Writes the files of a finished scene: poses, grasps, clouds, images and BOP folders. Each file is written under a
+/// Writes the files of a finished scene: poses, grasps, clouds and images. Each file is written under a
 /// temporary name and renamed, so that no file is ever incomplete. A full disk or an unwritable folder is an
 /// environment Error. docs/use/outputs.md describes the files for users; the layout of whole data sets is the task of
 /// src/dataset.
@@ -9,10 +9,10 @@
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/grasp/scene_grasps.hpp"
 #include "bin_scenes/part/loaded_request.hpp"
-#include "bin_scenes/part/symmetry.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -49,6 +49,8 @@ void write_grasp_maps(const std::string& directory, const RangeImage& image, con
 
 /// Writes a text file.
 void write_text(const std::string& path, const std::string& text);
+/// Makes a directory and those above it.
+void make_directory(const std::filesystem::path& path);
 
 /// Writes a cloud as a PCD file: organised, binary, in the optical frame, with the pose as VIEWPOINT. Fields: x y z
 /// normal_x normal_y normal_z intensity label validity truth_normal_x truth_normal_y truth_normal_z snr. `label` is 0
@@ -70,34 +72,6 @@ void write_ply(const std::string& path, const RangeImage& image);
 /// For viewing: <sensor>.png is shaded; <sensor>_depth_picture.png has a scale in metres; <sensor>_validity_picture.png
 /// has a legend.
 void write_pngs(const std::string& directory, const RangeImage& image);
-
-/// Writes one scene in the layout of the BOP challenge (github.com/thodan/bop_toolkit, docs/bop_datasets_format.md).
-/// Each camera is an image of the scene; lengths are in mm; depth is in counts of depth_scale. The files are depth/,
-/// gray/, mask/, mask_visib/, scene_gt.json, scene_gt_info.json and scene_camera.json.
-/// @param parts  the models, by part line
-///
-/// BOP numbers masks by the position of the entry in scene_gt; here the number is the part's id. An entry carries its
-/// `id` and is at the position of that number if possible. If parts were not poured, the last entries take the free
-/// positions, and their masks are stored under both numbers.
-void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
-               const std::vector<RangeImage>& images);
-/// How BOP files state which parts are visible, and which object a part is.
-struct BopOptions {
-  /// 0: a pixel shows the part that is truly seen there. Otherwise, in m: a pixel shows every part that is at most this
-  /// far behind the measured surface, and every part where nothing was measured (bop_toolkit's rule for images of real
-  /// cameras).
-  double tolerance = 0.0;
-  std::vector<int> object_ids;  ///< by part line; empty: the numbers of bop_object_ids()
-};
-/// Writes the folder `models` of a BOP data set: obj_<obj_id>.ply and models_info.json (mm) with the diameter and the
-/// symmetries. The symmetries are those of `given`, by part line, or otherwise those found on the mesh. With
-/// `for_evaluation`, it is the folder `models_eval`, whose meshes have vertices spread evenly over their surface.
-void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
-                      const std::vector<Symmetries>& given = {}, bool for_evaluation = false);
-/// Returns the entry of a model in models_info.json as JSON (mm): diameter, bounds and symmetries.
-std::string bop_model_info(const PartModel& part, const Symmetries& symmetries);
-/// Returns BOP's obj_id of each part line: 1, 2, ... in order of first use. Lines with the same model share one number.
-std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts);
 
 /// Writes a mesh as binary little-endian PLY; every coordinate is multiplied by `scale`.
 void write_ply(const std::string& path, const Mesh& mesh, double scale = 1.0);

@@ -1,10 +1,14 @@
 /// A sheet of light as a SensorModel: keys, checks, and the model made from a sensor.
 #include "bin_scenes/core/error.hpp"
+#include "sensor/models/laser_line.hpp"
 #include "sensor/models/of_sensor.hpp"
 #include "sensor/report_points.hpp"
 
 namespace bin_scenes {
 
+namespace {
+
+/// @param s  resolved()
 LaserLine::Setup laser_line_setup(const Sensor& s) {
   LaserLine::Setup setup;
   setup.camera = lens_of(s);
@@ -21,8 +25,6 @@ LaserLine::Setup laser_line_setup(const Sensor& s) {
   return setup;
 }
 
-namespace {
-
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   LaserLineSettings& s = settings.of<LaserLineSettings>();
   v.field({"fan", "rad", "opening of the sheet about its z axis", at_least(1e-3, 3.0)}, s.fan);
@@ -36,6 +38,13 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
           s.min_signal);
   v.field({"peak", "", "which of two lines in a column is reported"}, s.peak,
           {{"strongest", LaserLineSettings::Peak::strongest}, {"nearest", LaserLineSettings::Peak::nearest}});
+}
+
+void check(const Sensor& sensor, const std::string& key) {
+  check_baseline(key + ".laser.baseline", sensor.laser.baseline);
+  const Vec3& direction = sensor.scan.direction;
+  if (!direction.allFinite() || !(direction.norm() > 0.0))
+    throw input_error("is no direction", key + ".scan.direction", "for instance [1, 0, 0]");
 }
 
 void check_places(const Sensor& sensor, const std::string& where) {
@@ -95,7 +104,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  SensorModel m{"laser_line", "the line of light and its peak", visit_keys, nullptr, check_places, measured, sigma};
+  SensorModel m{"laser_line", "the line of light and its peak", visit_keys, check, check_places, measured, sigma};
   m.image = SensorModel::Image::profiles;
   m.imager = m.laser = m.indirect = true;
   m.bounces = 1;

@@ -1,7 +1,7 @@
 #include "sensor/models/of_sensor.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
-
+#include "bin_scenes/core/error.hpp"
 #include "core/in_parallel.hpp"
 
 #include <algorithm>
@@ -10,6 +10,11 @@
 namespace bin_scenes {
 
 const Names<MixedPixels> mixed_pixels{{"remove", MixedPixels::remove}, {"keep", MixedPixels::keep}};
+
+void check_baseline(const std::string& key, double baseline) {
+  if (baseline == 0.0)
+    throw input_error("is 0: without it there is no triangle to measure with", key, "0.1 to 0.3 m is usual");
+}
 
 IndirectField::Setup indirect_of(const Sensor& sensor) {
   return {sensor.bounces.value_or(sensor_model(sensor.model).bounces), sensor.indirect_samples};

@@ -5,9 +5,8 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
-#include "sensor/models/laser_line.hpp"
-#include "sensor/models/stereo.hpp"
-#include "sensor/models/structured_light.hpp"
+#include "sensor/models/indirect_field.hpp"
+#include "sensor/models/measurement.hpp"
 #include "sensor/targets.hpp"
 
 #include <algorithm>
@@ -21,10 +20,8 @@ namespace bin_scenes {
 
 extern const Names<MixedPixels> mixed_pixels;
 
-/// @param sensor  resolved()
-StructuredLight::Setup structured_light_setup(const Sensor& sensor);
-Stereo::Setup stereo_setup(const Sensor& sensor);
-LaserLine::Setup laser_line_setup(const Sensor& sensor);
+/// Throws an input Error for a baseline of 0.
+void check_baseline(const std::string& key, double baseline);
 
 IndirectField::Setup indirect_of(const Sensor& sensor);
 Random random_of(const Draw& draw);

@@ -2,12 +2,16 @@
 #include "bin_scenes/core/error.hpp"
 #include "sensor/models/census.hpp"
 #include "sensor/models/of_sensor.hpp"
+#include "sensor/models/stereo.hpp"
 #include "sensor/report_points.hpp"
 
 #include <optional>
 
 namespace bin_scenes {
 
+namespace {
+
+/// @param s  resolved()
 Stereo::Setup stereo_setup(const Sensor& s) {
   Stereo::Setup setup;
   setup.projector = lens_of(s.projector);
@@ -20,8 +24,6 @@ Stereo::Setup stereo_setup(const Sensor& s) {
   setup.pipeline = s.settings.of<StereoPipeline>();
   return setup;
 }
-
-namespace {
 
 const Names<StereoMatcher> matchers{{"semi_global", StereoMatcher::semi_global}, {"census", StereoMatcher::census}};
 const Names<DotLayout> layouts{{"random", DotLayout::random}, {"spread", DotLayout::spread}};

@@ -1,6 +1,7 @@
 /// Fringe projection as a SensorModel: keys, checks, and the model made from a sensor.
 #include "bin_scenes/core/error.hpp"
 #include "sensor/models/of_sensor.hpp"
+#include "sensor/models/structured_light.hpp"
 #include "sensor/report_points.hpp"
 
 namespace bin_scenes {
@@ -18,8 +19,7 @@ IndirectField::Setup indirect_light_of(const Sensor& s) {
   return setup;
 }
 
-}  // namespace
-
+/// @param s  resolved()
 StructuredLight::Setup structured_light_setup(const Sensor& s) {
   StructuredLight::Setup setup;
   setup.projector = lens_of(s.projector);
@@ -33,8 +33,6 @@ StructuredLight::Setup structured_light_setup(const Sensor& s) {
   setup.reflection = s.settings.of<FilterSettings>().reflection;
   return setup;
 }
-
-namespace {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   StructuredLightSettings& s = settings.of<StructuredLightSettings>();
@@ -79,6 +77,7 @@ void check_reflection(const Sensor& sensor, const std::string& key) {
 
 void check(const Sensor& sensor, const std::string& key) {
   const auto& s = sensor.settings.of<StructuredLightSettings>();
+  check_baseline(key + ".projector.baseline", sensor.projector.baseline);
   check_reflection(sensor, key + ".filter.reflection");
   const std::string section = key + ".structured_light";
   if (s.defocus > 0.5 * s.period)

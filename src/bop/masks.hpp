@@ -1,0 +1,47 @@
+/// Masks of parts, as boxes and as whole images, and the forms in which BOP's files hold them: PNG files, and run
+/// lengths as COCO has them: column by column from the left, each from the top; the first run is one of zeros.
+#pragma once
+
+#include "output/boxes.hpp"
+#include "output/png.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// A rectangle of an image; what lies outside is 0.
+struct MaskBox {
+  int left = 0, top = 0, width = 0, height = 0;
+  std::vector<std::uint8_t> inside;  ///< row-major, 0 or 1
+};
+/// The pixels of a part's box that truly show it.
+MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box);
+MaskBox whole_mask(const Silhouette& silhouette);
+
+/// A mask of the size of its image.
+struct BinaryImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> inside;  ///< row-major, 0 or 1
+
+  bool at(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height &&
+           inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] != 0;
+  }
+  std::size_t count() const;
+};
+
+/// A PNG file of the whole image, 8 bits a pixel, 0 or 255. It is made fast where nearly everything is 0: a scene of a
+/// data set holds hundreds of masks.
+Bytes mask_png(int width, int height, const MaskBox& box);
+
+std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height);
+/// {entry: {counts, size}}, as in mask.json of BOP's layout by images.
+nlohmann::ordered_json run_lengths_of(const std::vector<MaskBox>& masks, int width, int height);
+/// Reads them. `json`: {"size": [height, width], "counts": a list, or the compressed text of pycocotools}. Throws an
+/// input Error at `where`.
+BinaryImage from_run_lengths(const std::string& json, const std::string& where);
+
+}  // namespace bin_scenes

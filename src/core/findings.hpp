@@ -1,0 +1,29 @@
+/// What a check of files found.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+struct Finding {
+  std::string check, where, text;
+};
+
+/// Collects findings; for several threads.
+class Findings {
+ public:
+  /// Counts a check, and a finding if it fails. Returns whether it holds.
+  bool expect(bool holds, const char* check, const std::string& where, const std::string& text);
+  std::vector<Finding> sorted() const;
+  std::map<std::string, std::size_t> checked() const { return checked_; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Finding> all_;
+  std::map<std::string, std::size_t> checked_;  ///< how often each invariant was tried
+};
+
+}  // namespace bin_scenes

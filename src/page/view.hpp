@@ -1,0 +1,25 @@
+/// A finished scene as one HTML page that needs no network.
+#pragma once
+
+#include "bin_scenes/config/scene_file.hpp"
+
+#include <string>
+
+namespace bin_scenes {
+
+struct ViewSources {
+  std::string models;  ///< folder of the models; empty: they are looked for (view_models.hpp)
+  std::string trace;   ///< .jsonl file of `generate --trace`; empty: the page shows the final state only
+};
+
+struct ViewResult {
+  std::size_t bytes = 0, parts = 0, clouds = 0;
+  std::size_t samples = 0;  ///< samples of the trace in the page
+};
+
+/// Writes the page of the scene in `folder` to `path`. Throws an environment Error without three.js, and an input Error
+/// if models or files of the scene, or the trace, are missing or damaged.
+ViewResult write_view(const SceneFile& scene, const std::string& folder, const ViewSources& sources,
+                      const std::string& path);
+
+}  // namespace bin_scenes
