@@ -165,8 +165,12 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
   for (const PlacedPart& part : placed.all()) {
     if (!part.movable) continue;
     PartPick& pick = result.parts[next++];
-    for (std::size_t g = 0; g < grippers.size(); ++g)
+    for (std::size_t g = 0; g < grippers.size(); ++g) {
+      const auto first = static_cast<std::ptrdiff_t>(result.grasps.size());
       PartGrasper(loaded, placed, part, pick, g).add_to(result.grasps, *known.at({part.line, g}), eyes);
+      std::stable_sort(result.grasps.begin() + first, result.grasps.end(),
+                       [](const SceneGrasp& a, const SceneGrasp& b) { return a.score > b.score; });
+    }
   }
   BIN_SCENES_ASSERT(next == result.parts.size());
   return result;
