@@ -13,12 +13,12 @@ namespace {
 constexpr double same_direction = 1e-4;  ///< 1 - cosine: 0.8 degrees
 constexpr double across = 0.05;          ///< cosine: 3 degrees
 constexpr double sharp = 0.85;           ///< cosine between the normals beside an edge: 32 degrees
-constexpr double large_face = 0.02;      ///< of the surface
-constexpr double long_edge = 0.2;        ///< / diagonal, all edges of a direction together
-constexpr std::size_t most_known = 256;  ///< directions that are distinguished
+constexpr double large_face = 0.02;      ///< share of the surface
+constexpr double long_edge = 0.2;        ///< / diagonal: total length of the edges of one direction
+constexpr std::size_t most_known = 256;  ///< largest number of directions that are distinguished
 constexpr std::size_t most_of_a_kind = 6;
 
-/// Directions with weights; opposite ones are the same.
+/// Directions with weights. Opposite directions count as one.
 class Weighted {
  public:
   void add(const Vec3& direction, double weight) {
@@ -29,7 +29,7 @@ class Weighted {
       }
     if (all_.size() < most_known) all_.emplace_back(direction, weight);
   }
-  /// Those of at least `least`, the heaviest first.
+  /// Appends the directions with a weight of at least `least`, the heaviest first.
   void append_to(std::vector<Vec3>& directions, double least) const {
     auto sorted = all_;
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -51,7 +51,7 @@ Weighted faces_of(const Mesh& mesh) {
 }
 
 Weighted edges_of(const Mesh& mesh) {
-  // Places instead of indices: meshes of STL files repeat their vertices.
+  // Edges are compared by position and not by index, because meshes of STL files repeat their vertices.
   const auto key = [](const Vec3& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };
   using Place = std::array<double, 3>;
   std::map<std::pair<Place, Place>, Vec3> normals;

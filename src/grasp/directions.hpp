@@ -1,4 +1,4 @@
-/// Directions that the shape of a part suggests: grippers are turned to them.
+/// Directions of a part's shape with which grippers are aligned.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
@@ -8,12 +8,12 @@
 
 namespace bin_scenes {
 
-/// Unit directions in the model frame, the most important first: axes of symmetry, normals of large flat faces, sharp
-/// straight edges, and the principal axes last.
+/// Unit directions in the model frame: axes of rotational symmetry, then normals of large flat faces, then long sharp
+/// straight edges, then the principal axes of inertia.
 std::vector<Vec3> shape_directions(const PartModel& part, const Symmetries& symmetries);
 
-/// Of the directions, the first that is across `axis` within a few degrees, projected across it; without one, the
-/// projection of the first that is not along the axis. Unit.
+/// A unit direction perpendicular to `axis`: the projection of the first of the directions that is perpendicular to it
+/// within three degrees or, if there is none, of the direction that is the nearest to perpendicular.
 Vec3 direction_across(const std::vector<Vec3>& directions, const Vec3& axis);
 
 }  // namespace bin_scenes

@@ -24,7 +24,7 @@ void Eye::look(const Grasp& grasp, SceneGrasp& placed) const {
     const auto row = std::clamp(static_cast<int>(std::lround(pixel->y())), 0, lens_.height - 1);
     const auto at =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(lens_.width) + static_cast<std::size_t>(column);
-    // A pixel shows its centre; the point may lie elsewhere in it, on a slope.
+    // A pixel stores the depth at its centre; the point may be elsewhere in the pixel, on a slope.
     const double within = 5e-4 + 3.0 * point.z() / lens_.fx;
     if (image_.seen_label()[at] != label || !(std::abs(image_.seen_depth()[at] - point.z()) < within)) continue;
     ++seen;

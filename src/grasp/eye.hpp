@@ -1,4 +1,4 @@
-/// What a camera sees and measures of the contacts of grasps.
+/// Visibility of the contacts of grasps in one image.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"
@@ -7,9 +7,9 @@ namespace bin_scenes {
 
 class Eye {
  public:
-  /// The image has to outlive it.
+  /// The image must outlive this object.
   explicit Eye(const RangeImage& image);
-  /// Appends the shares of the contact that are seen and measured.
+  /// Appends to SceneGrasp::visible and measured.
   void look(const Grasp& grasp, SceneGrasp& placed) const;
 
  private:

@@ -12,9 +12,9 @@ namespace bin_scenes {
 namespace {
 
 constexpr int slices = 16;
-constexpr double alike = 0.02;  ///< / extent: slices whose boxes differ by no more are one
-constexpr double misfit = 0.1;  ///< / pad length: of pad and tip from where they belong
-constexpr double flat = 1e-9;   ///< / extent in z
+constexpr double alike = 0.02;  ///< / extent: slices whose boxes differ by less share one
+constexpr double misfit = 0.1;  ///< / pad length: largest distance of pad and tip from their nominal positions
+constexpr double flat = 1e-9;   ///< / extent in z: rounding
 
 /// Extends a box by the part of a triangle between two heights.
 void extend_by_slice(Aabb& box, const std::array<Vec3, 3>& corners, double low, double high) {

@@ -7,13 +7,13 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double cup_height_share = 1.0;  ///< of the radius: the cup; above it the tube, of half the radius
+constexpr double cup_height_share = 1.0;  ///< height of the cup / its radius; above it is a tube of half the radius
 
 Sweep box(const Vec3& lower, const Vec3& upper, double margin) {
   return Sweep(Pose(), 0.5 * (lower + upper), 0.5 * (upper - lower) + Vec3::Constant(margin));
 }
 
-/// Heights of finger tips and palm in the gripper's frame.
+/// Height of the finger tips in the gripper's frame.
 double tip_of(const Gripper& g) {
   return g.type == Gripper::Type::parallel ? 0.5 * g.pad_length : 0.0;
 }
@@ -35,7 +35,8 @@ void add_fingers(std::vector<Sweep>& all, const Gripper& g, double near, double 
   }
 }
 
-/// Distance of the inner faces of the fingers from the gripper's centre plane when the pads touch the part, and before.
+/// Distance of the inner faces of the fingers from the gripper's centre plane when the pads touch the part, and when
+/// the fingers are opened.
 double closed_at(const Gripper& g, const Aperture& at) {
   return 0.5 * g.between_fingers(at);
 }
@@ -49,7 +50,7 @@ void add_cup(std::vector<Sweep>& all, const Gripper& g, double back, double marg
   all.push_back(Sweep::cylinder(Pose(), 0.5 * g.radius + margin, -g.finger_depth - back - margin, -cup + margin));
 }
 
-/// The palm has the axes of the flange; moving back, it sweeps along the gripper's own axis.
+/// The palm has the axes of the flange, but moves along the axis of the gripper.
 void add_palm(std::vector<Sweep>& all, const Gripper& g, double back, double margin) {
   const double top = tip_of(g) - g.finger_depth;
   const Vec3 half = 0.5 * g.palm;

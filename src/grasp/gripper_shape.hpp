@@ -8,12 +8,12 @@
 
 namespace bin_scenes {
 
-/// What the gripper fills at the end of its approach, opened, and moved backwards by `back` (m) as well: what it
-/// sweeps coming in. Grown by `margin` all around.
+/// The volume that the opened gripper sweeps while it approaches over the distance `back` (m); with `back` 0, the
+/// gripper at the end of its approach. Grown by `margin` (m) on all sides.
 std::vector<Sweep> approach_sweeps(const Gripper& gripper, const Aperture& at, double back, double margin);
-/// What its fingers sweep when they close, or expand.
+/// The volume that its fingers sweep while they close, or expand in a hole.
 std::vector<Sweep> closing_sweeps(const Gripper& gripper, const Aperture& at, double margin);
-/// What it fills when its pads touch the part.
+/// The gripper with its pads on the part.
 std::vector<Sweep> closed_shape(const Gripper& gripper, const Aperture& at, double margin);
 
 }  // namespace bin_scenes

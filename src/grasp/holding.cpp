@@ -1,8 +1,8 @@
-/// Two pads hold a force and a moment about the closing axis together by an ellipsoid (Howe & Cutkosky 1996, "Practical
-/// force-motion models for sliding manipulation"). They hold a moment across that axis, as of a weight beside the pads,
-/// by pressing away from their centres and by friction. A cup is torn off when force and tilting moment lift one side
-/// of its ring, and slides when friction of the ring is exceeded (Mahler et al. 2018, "Dex-Net 3.0", equations of its
-/// model).
+/// Friction of two pads holds a force together with a moment about the closing axis; the limit is an ellipsoid (Howe &
+/// Cutkosky 1996, "Practical force-motion models for sliding manipulation"). The pads hold a moment across that axis,
+/// for example of a weight beside the pads, because their pressure moves away from their centres, and by friction. A
+/// cup is torn off if force and tilting moment lift one side of its ring, and slides if the friction of the ring is
+/// exceeded (Mahler et al. 2018, "Dex-Net 3.0").
 #include "grasp/holding.hpp"
 
 #include <algorithm>
@@ -15,19 +15,20 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Largest of a direction within a box, of points from its origin (m).
+/// Largest coordinate of a box along a direction (m).
 double farthest(const Aabb& box, const Vec3& direction) {
   return direction.cwiseProduct(box.lower).cwiseMax(direction.cwiseProduct(box.upper)).sum();
 }
 
-/// Arm (m) with which the pads' forces alone hold a moment across the closing axis, gripper's frame: the one presses
-/// at the near end of its contact, the other at the far end. Forces from within point in the opposite direction.
+/// Arm (m) with which the closing forces alone hold a moment across the closing axis (gripper's frame): one pad presses
+/// at one end of its contact, the other pad at the opposite end. Forces of fingers within a hole point outwards.
 double arm_of(const Grasp& grasp, const Vec3& moment) {
   const Vec3 along = Vec3::UnitX().cross((grasp.inner ? -1.0 : 1.0) * moment.normalized());
   return farthest(grasp.second, along) + farthest(grasp.first, -along);
 }
 
-/// With a burden k times as large the pads need the coefficient slope + k * across + max(0, k * lever - arm) / width.
+/// If the burden is k times as large, the pads need the coefficient
+/// slope + k * across + max(0, k * lever - arm) / width.
 Hold hold_between_pads(const Grasp& grasp, const Pose& pose, const Gripper& g, double friction, const Burden& burden) {
   Vec3 moment = pose.orientation.conjugate() * (burden.center - pose.position).cross(burden.weight);
   const double twist = std::abs(moment.x()) / grasp.radius;  // about the closing axis
@@ -70,8 +71,8 @@ Hold hold_by_cup(const Grasp& grasp, const Pose& pose, const Gripper& g, double 
 }  // namespace
 
 double vacuum_of(const Grasp& grasp, const Gripper& gripper) {
-  // The flow through a slit grows with the cube of its height; with the widest gap that the lip closes, half of the
-  // vacuum is left. The lip, pressed into its gap, pushes back.
+  // The flow through a slit grows with the cube of its height; at the widest gap that the lip can close, half of the
+  // vacuum is left. The lip, which is pressed into the gap, pushes back.
   const double leak = grasp.gap / gripper.lip;
   return gripper.force / (1.0 + leak * leak * leak) - gripper.stiffness * grasp.gap;
 }

@@ -9,9 +9,9 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double cells_of_a_part = 64.0;  ///< over the diagonal of the smallest part
+constexpr double cells_of_a_part = 64.0;  ///< columns along the diagonal of the smallest part
 constexpr double touching = 2e-3;         ///< / smallest diagonal
-constexpr int directions = 16;            ///< of moves that are tried
+constexpr int directions = 16;            ///< directions of the moves that are tried
 constexpr std::size_t all_cells = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
@@ -64,7 +64,7 @@ Overlaps::Columns Overlaps::columns_of(const PlacedPart& part) const {
   return columns;
 }
 
-/// Columns in which the part, moved by whole cells, is below the other one; ends at `enough`.
+/// Number of columns in which the part, moved by whole cells, is below the other one; counts up to `enough`.
 std::size_t Overlaps::covered(const Columns& part, int dx, int dy, const Columns& above, std::size_t enough) const {
   std::size_t count = 0;
   const int first_x = std::max(part.x + dx, above.x),

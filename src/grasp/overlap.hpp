@@ -1,4 +1,4 @@
-/// By how much others cover a part, seen along its lift: in columns of a grid across it.
+/// Areas over which parts cover each other, measured in the columns of a horizontal grid.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"
@@ -12,23 +12,23 @@ class Overlaps {
  public:
   explicit Overlaps(const PlacedParts& placed);
 
-  /// m2 over which a part, by index into PlacedParts::all(), is below another one.
+  /// Area (m2) over which a part is below another one; both are indices into PlacedParts::all().
   double area(std::size_t part, std::size_t above) const;
-  /// Over which it is below any of several, and the shortest move across the lift that frees it of them.
+  /// Area over which it is below several parts, and the shortest horizontal move found after which it is below none.
   PartPick::Overlap of(std::size_t part, const std::vector<std::size_t>& above) const;
 
  private:
-  /// Lowest and highest points of a part's surface in each column, and its place in the grid.
+  /// Lowest and highest point of a part's surface in each column of its bounding rectangle.
   struct Columns {
     int x = 0, y = 0, width = 0, height = 0;
-    std::vector<float> low, high;  ///< m along the lift; low above high: nothing there
+    std::vector<float> low, high;  ///< m upwards; low > high: the part is not in this column
   };
   Columns columns_of(const PlacedPart& part) const;
   std::size_t covered(const Columns& part, int dx, int dy, const Columns& above, std::size_t enough) const;
 
   Vec3 up_, across_x_, across_y_;
   double cell_ = 0.0;      ///< m
-  float touching_ = 0.0f;  ///< m: what is higher by no more only touches
+  float touching_ = 0.0f;  ///< m: a part that is higher by less only touches
   std::vector<Columns> all_;
 };
 

@@ -2,8 +2,6 @@
 /// and mean distance are then those of plane polygons, by formulas.
 #include "grasp/pad.hpp"
 
-#include "bin_scenes/core/assertion.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,26 +10,27 @@ namespace bin_scenes {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-using Polygon = std::vector<Vec3>;  // u, v, height
+using Polygon = PadFacet::Polygon;
 
 /// Keeps the side where sign * (coordinate - limit) <= 0 (Sutherland & Hodgman 1974).
 void clip(Polygon& polygon, int coordinate, double sign, double limit) {
-  static thread_local Polygon kept;
-  kept.clear();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-    const double a = sign * (here[coordinate] - limit), b = sign * (next[coordinate] - limit);
-    if (a <= 0.0) kept.push_back(here);
-    if ((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0)) kept.push_back(here + a / (a - b) * (next - here));
+  std::array<double, Polygon::most> beyond;
+  bool any = false;
+  for (int i = 0; i < polygon.count; ++i) {
+    beyond[i] = sign * (polygon.points[i][coordinate] - limit);
+    any = any || beyond[i] > 0.0;
   }
-  polygon.swap(kept);
+  if (!any) return;
+  Polygon kept;
+  for (int i = 0; i < polygon.count; ++i) {
+    const int next = i + 1 < polygon.count ? i + 1 : 0;
+    const double a = beyond[i], b = beyond[next];
+    if (a <= 0.0) kept.add(polygon.points[i]);
+    if ((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0))
+      kept.add(polygon.points[i] + a / (a - b) * (polygon.points[next] - polygon.points[i]));
+  }
+  polygon = kept;
 }
-
-/// A triangle within the pad's rectangle, seen from the pad.
-struct Patch {
-  Polygon polygon;
-  Vec3 normal;  // along u, v, out
-};
 
 Aabb bounds_of(const Pad& pad) {
   Aabb box;
@@ -42,28 +41,25 @@ Aabb bounds_of(const Pad& pad) {
   return box;
 }
 
-/// All that the pad may meet on its path.
-std::vector<Patch> patches_below(const MeshQuery& mesh, const Pad& pad) {
-  std::vector<Patch> patches;
-  const Mesh& m = mesh.mesh();
-  mesh.overlapping(bounds_of(pad), [&](std::size_t t) {
-    const Vec3 area = m.area_vector(t);
-    const double length = area.norm();
-    if (!(area.dot(pad.out) > 1e-9 * length)) return;
-    Patch patch;
-    patch.normal = Vec3(area.dot(pad.u), area.dot(pad.v), area.dot(pad.out)) / length;
-    for (const std::uint32_t i : m.triangles[t]) {
-      const Vec3 x = m.vertices[i] - pad.center;
-      patch.polygon.emplace_back(x.dot(pad.u), x.dot(pad.v), x.dot(pad.out));
-    }
-    clip(patch.polygon, 0, 1.0, pad.half_u);
-    clip(patch.polygon, 0, -1.0, -pad.half_u);
-    clip(patch.polygon, 1, 1.0, pad.half_v);
-    clip(patch.polygon, 1, -1.0, -pad.half_v);
-    clip(patch.polygon, 2, 1.0, pad.start);
-    if (patch.polygon.size() > 2) patches.push_back(std::move(patch));
-  });
-  return patches;
+/// The triangle as the pad sees it; none if it faces away.
+std::optional<PadFacet> facet_of(const Mesh& mesh, std::size_t triangle, const Pad& pad) {
+  const Vec3 area = mesh.area_vector(triangle);
+  const double length = area.norm();
+  if (!(area.dot(pad.out) > 1e-9 * length)) return std::nullopt;
+  PadFacet facet;
+  facet.normal = Vec3(area.dot(pad.u), area.dot(pad.v), area.dot(pad.out)) / length;
+  for (const std::uint32_t i : mesh.triangles[triangle]) {
+    const Vec3 x = mesh.vertices[i] - pad.center;
+    facet.polygon.add({x.dot(pad.u), x.dot(pad.v), x.dot(pad.out)});
+  }
+  return facet;
+}
+
+void clip_to_rectangle(Polygon& polygon, const Pad& pad) {
+  clip(polygon, 0, 1.0, pad.half_u);
+  clip(polygon, 0, -1.0, -pad.half_u);
+  clip(polygon, 1, 1.0, pad.half_v);
+  clip(polygon, 1, -1.0, -pad.half_v);
 }
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -71,8 +67,8 @@ double cross(const Vec2& a, const Vec2& b) {
 }
 
 bool contains(const Polygon& polygon, const Vec2& point) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 a = polygon[i].head<2>(), b = polygon[(i + 1) % polygon.size()].head<2>();
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vec2 a = polygon.points[i].head<2>(), b = polygon.points[(i + 1) % polygon.count].head<2>();
     if (cross(b - a, point - a) < 0.0) return false;
   }
   return true;
@@ -85,37 +81,45 @@ struct Sums {
   Vec3 normal = Vec3::Zero();
 };
 
-void add(Sums& sums, const Patch& patch) {
-  const Vec2 a = patch.polygon[0].head<2>();
-  for (std::size_t i = 2; i < patch.polygon.size(); ++i) {
-    const Vec2 b = patch.polygon[i - 1].head<2>(), c = patch.polygon[i].head<2>();
+void add(Sums& sums, const PadFacet& facet) {
+  const auto& points = facet.polygon.points;
+  const Vec2 a = points[0].head<2>();
+  for (int i = 2; i < facet.polygon.count; ++i) {
+    const Vec2 b = points[i - 1].head<2>(), c = points[i].head<2>();
     const double area = 0.5 * cross(b - a, c - a);
     sums.area += area;
     sums.moment += area / 3.0 * (a + b + c);
-    sums.normal += area * patch.normal;
+    sums.normal += area * facet.normal;
   }
 }
 
-void set_points(PadContact& contact, const std::vector<Patch>& patches, const Pad& pad) {
+void set_points(PadContact& contact, const std::vector<PadFacet>& facets, const Pad& pad) {
   constexpr int across = 3;
   std::vector<Vec2> small;
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < across; ++j) {
       const Vec2 point(((2 * i + 1) / double(across) - 1.0) * pad.half_u,
                        ((2 * j + 1) / double(across) - 1.0) * pad.half_v);
-      const auto holds = [&](const Patch& patch) { return contains(patch.polygon, point); };
-      if (std::any_of(patches.begin(), patches.end(), holds)) contact.points.push_back(point);
+      const auto holds = [&](const PadFacet& facet) { return contains(facet.polygon, point); };
+      if (std::any_of(facets.begin(), facets.end(), holds)) contact.points.push_back(point);
     }
   }
-  for (std::size_t i = 0; contact.points.empty() && i < patches.size(); i += 1 + patches.size() / 8) {
+  for (std::size_t i = 0; contact.points.empty() && i < facets.size(); i += 1 + facets.size() / 8) {
+    const Polygon& polygon = facets[i].polygon;
     Vec3 sum = Vec3::Zero();
-    for (const Vec3& corner : patches[i].polygon) sum += corner;
-    small.push_back((sum / static_cast<double>(patches[i].polygon.size())).head<2>());
+    for (int k = 0; k < polygon.count; ++k) sum += polygon.points[k];
+    small.push_back((sum / static_cast<double>(polygon.count)).head<2>());
   }
   if (contact.points.empty()) contact.points = small;
 }
 
 }  // namespace
+
+double PadFacet::Polygon::highest() const {
+  double height = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < count; ++i) height = std::max(height, points[static_cast<std::size_t>(i)].z());
+  return height;
+}
 
 double distance_integral(const std::vector<Vec2>& polygon, const Vec2& from) {
   // Of the triangle between a point and an edge h away from it, seen under the angles a to b from the perpendicular,
@@ -138,33 +142,44 @@ double distance_integral(const std::vector<Vec2>& polygon, const Vec2& from) {
   return sum;
 }
 
-std::optional<PadContact> press(const MeshQuery& mesh, const Pad& pad) {
-  std::vector<Patch> patches = patches_below(mesh, pad);
-  if (patches.empty()) return std::nullopt;
-  PadContact contact;
-  contact.height = -std::numeric_limits<double>::infinity();
-  for (const Patch& patch : patches)
-    for (const Vec3& x : patch.polygon) contact.height = std::max(contact.height, x.z());
-  if (contact.height >= pad.start * (1.0 - 1e-9)) return std::nullopt;
+std::optional<PressedPad> PressedPad::on(const MeshQuery& mesh, const Pad& pad) {
+  PressedPad pressed(pad);
+  bool obstructed = false;
+  mesh.overlapping(bounds_of(pad), [&](std::size_t triangle) {
+    std::optional<PadFacet> facet = obstructed ? std::nullopt : facet_of(mesh.mesh(), triangle, pad);
+    if (!facet || facet->polygon.highest() < pressed.height_ - pad.give) return;
+    clip_to_rectangle(facet->polygon, pad);
+    if (facet->polygon.count < 3) return;
+    pressed.height_ = std::max(pressed.height_, facet->polygon.highest());
+    obstructed = pressed.height_ >= pad.start * (1.0 - 1e-9);
+    pressed.facets_.push_back(*facet);
+  });
+  if (obstructed || pressed.facets_.empty()) return std::nullopt;
+  return pressed;
+}
 
-  const double steepest = 1.0 / std::sqrt(1.0 + pad.friction * pad.friction);  // cosine of the cone's half angle
+std::optional<PadContact> PressedPad::contact() const {
+  const double steepest = 1.0 / std::sqrt(1.0 + pad_.friction * pad_.friction);  // cosine of the cone's half angle
+  std::vector<PadFacet> facets;
   Sums sums;
-  for (Patch& patch : patches) {
-    if (patch.normal.z() < steepest * (1.0 - 1e-9)) patch.polygon.clear();
-    clip(patch.polygon, 2, -1.0, contact.height - pad.give);
-    if (patch.polygon.size() > 2) add(sums, patch);
+  for (PadFacet facet : facets_) {
+    if (facet.normal.z() < steepest * (1.0 - 1e-9)) continue;
+    clip(facet.polygon, 2, -1.0, height_ - pad_.give);
+    if (facet.polygon.count < 3) continue;
+    add(sums, facet);
+    facets.push_back(facet);
   }
-  patches.erase(std::remove_if(patches.begin(), patches.end(), [](const Patch& p) { return p.polygon.size() < 3; }),
-                patches.end());
   if (!(sums.area > 0.0)) return std::nullopt;
-  contact.share = sums.area / (4.0 * pad.half_u * pad.half_v);
+  PadContact contact;
+  contact.share = sums.area / (4.0 * pad_.half_u * pad_.half_v);
   contact.centroid = sums.moment / sums.area;
   contact.friction = sums.normal.head<2>().norm() / sums.normal.z();
   contact.lower = contact.upper = contact.centroid;
   double distances = 0.0;
-  for (const Patch& patch : patches) {
-    std::vector<Vec2> flat;
-    for (const Vec3& x : patch.polygon) flat.push_back(x.head<2>());
+  std::vector<Vec2> flat;
+  for (const PadFacet& facet : facets) {
+    flat.clear();
+    for (int i = 0; i < facet.polygon.count; ++i) flat.emplace_back(facet.polygon.points[i].head<2>());
     for (const Vec2& x : flat) {
       contact.lower = contact.lower.cwiseMin(x);
       contact.upper = contact.upper.cwiseMax(x);
@@ -172,7 +187,7 @@ std::optional<PadContact> press(const MeshQuery& mesh, const Pad& pad) {
     distances += distance_integral(flat, contact.centroid);
   }
   contact.radius = distances / sums.area;
-  set_points(contact, patches, pad);
+  set_points(contact, facets, pad_);
   return contact;
 }
 

@@ -1,5 +1,5 @@
-/// Pairs of points by lines through the part; around each pair's axis the gripper is turned in steps; the pads are then
-/// pressed on exactly.
+/// Lines through the part yield pairs of opposite points. The gripper is turned around the axis of each pair in steps,
+/// and its pads are then pressed onto the exact mesh.
 #include "grasp/parallel_grasps.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -17,11 +17,11 @@ namespace bin_scenes {
 namespace {
 
 constexpr std::size_t points_tried = 700;
-constexpr double same_place = 1e-6;      ///< / diagonal: lengths of rounding
-constexpr double least_contact = 0.005;  ///< share of the pad
+constexpr double same_place = 1e-6;      ///< / diagonal: rounding of lengths
+constexpr double least_contact = 0.005;  ///< smallest share of the pad that must be in contact
 
-/// Where a line enters and leaves the part, or, from within, where it crosses a hole; and the direction from its far
-/// end to its near one.
+/// The points where a line enters and leaves the part or, from within, where it crosses a hole, and the direction from
+/// `far` to `near`.
 struct Pair {
   Vec3 near, far, axis;
   bool inner = false;
@@ -48,7 +48,7 @@ class PairFinder {
         cosine_(1.0 / std::sqrt(1.0 + friction * friction)),
         counts_(counts) {}
 
-  /// All pairs of a point with others straight through the part, and with the one across a hole.
+  /// The pairs of a point with all points opposite to it through the part, and with the one across a hole.
   std::vector<Pair> from(const SpreadPoint& start) const {
     std::vector<Pair> pairs;
     for (const Passage& passage : passages(query_, start.point, -start.normal, least_)) {
@@ -68,7 +68,7 @@ class PairFinder {
  private:
   Vec3 normal_of(const Passage& passage) const { return query_.mesh().area_vector(passage.triangle).normalized(); }
 
-  /// Along the mean of both normals, which asks both sides for the same friction.
+  /// The pair along the mean of both normals, for which both sides need the same friction.
   std::optional<Pair> between(const SpreadPoint& start, Vec3 far, Vec3 normal, bool inner) const {
     const double side = inner ? 1.0 : -1.0;  // of the other point, seen along the first one's normal
     Vec3 axis = start.normal;
@@ -125,8 +125,8 @@ PadContact mirrored(PadContact contact) {
   return contact;
 }
 
-/// Presses the pad that touches the surface on one side (1: at +x, -1: at -x); along y and z of the gripper.
-std::optional<PadContact> press_side(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
+/// Presses the pad that touches the surface on one side (1: at +x, -1: at -x).
+std::optional<PressedPad> press_side(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
                                      const Aperture& guess, double side) {
   const Mat3 frame = pose.orientation.toRotationMatrix();
   const double out = guess.inner ? -side : side;  // of the surface, along x
@@ -140,8 +140,13 @@ std::optional<PadContact> press_side(const PartModel& part, const Gripper& gripp
           gripper.pad_give,
           friction};
   pad.start = std::max(gripper.opened(guess), same_place * part.diagonal());
-  auto contact = press(part.query(), pad);
-  if (contact && out < 0.0) contact = mirrored(std::move(*contact));
+  return PressedPad::on(part.query(), pad);
+}
+
+/// Along y and z of the gripper. Pads that press from +x outwards or from -x inwards count y the other way.
+std::optional<PadContact> contact_of(const PressedPad& pad, bool reversed) {
+  std::optional<PadContact> contact = pad.contact();
+  if (contact && reversed) contact = mirrored(std::move(*contact));
   return contact;
 }
 
@@ -155,51 +160,50 @@ bool goes_through(const PartModel& part, const Gripper& gripper, const Grasp& gr
 }
 
 std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
-                                   const Aperture& guess, GraspCounts& counts) {
-  const auto right = press_side(part, gripper, friction, pose, guess, 1.0);
-  const auto left = right ? press_side(part, gripper, friction, pose, guess, -1.0) : std::nullopt;
-  if (!left) {
-    ++counts.contact;
+                                   const Aperture& guess, GraspCounts& counts, const IsClear& is_clear) {
+  const auto fail = [](std::size_t& count) {
+    ++count;
     return std::nullopt;
-  }
+  };
+  const auto right_pad = press_side(part, gripper, friction, pose, guess, 1.0);
+  const auto left_pad = right_pad ? press_side(part, gripper, friction, pose, guess, -1.0) : std::nullopt;
+  if (!left_pad) return fail(counts.contact);
   const double out = guess.inner ? -1.0 : 1.0;
   const Vec3 axis = pose.orientation * Vec3::UnitX();
   Grasp grasp;
   grasp.inner = guess.inner;
-  grasp.width = guess.width + out * (right->height + left->height);
-  grasp.pose = {pose.position + out * 0.5 * (right->height - left->height) * axis, pose.orientation};
+  grasp.width = guess.width + out * (right_pad->height() + left_pad->height());
+  grasp.pose = {pose.position + out * 0.5 * (right_pad->height() - left_pad->height()) * axis, pose.orientation};
+  if (is_clear && !is_clear(grasp.pose, grasp.aperture())) return fail(counts.collision);
+  const auto right = contact_of(*right_pad, guess.inner);
+  const auto left = right ? contact_of(*left_pad, !guess.inner) : std::nullopt;
+  if (!left) return fail(counts.contact);
   grasp.share = std::min(right->share, left->share);
   grasp.friction = std::max(right->friction, left->friction);
   grasp.radius = 0.5 * (right->radius + left->radius);
-  // Forces of both pads must lie on one line.
+  // The forces of both pads must act along one line.
   const bool opposite =
       (right->lower.array() <= left->upper.array()).all() && (left->lower.array() <= right->upper.array()).all();
-  if (!opposite || grasp.share < least_contact) {
-    ++counts.contact;
-  } else if (!fits(gripper, grasp.width, grasp.inner)) {
-    ++counts.width;
-  } else if (grasp.friction > friction) {
-    ++counts.friction;
-  } else {
-    const Eigen::Vector2d between = 0.5 * (right->centroid + left->centroid);
-    const Vec3 offset = part.mass().center - grasp.pose * Vec3(0.0, between.x(), between.y());
-    grasp.lever = (offset - offset.dot(axis) * axis).norm();
-    grasp.contacts = pad_contacts_of(*right, *left, grasp.width);
-    const double half = 0.5 * grasp.width;
-    grasp.second = {Vec3(half, right->lower.x(), right->lower.y()), Vec3(half, right->upper.x(), right->upper.y())};
-    grasp.first = {Vec3(-half, left->lower.x(), left->lower.y()), Vec3(-half, left->upper.x(), left->upper.y())};
-    return grasp;
-  }
-  return std::nullopt;
+  if (!opposite || grasp.share < least_contact) return fail(counts.contact);
+  if (!fits(gripper, grasp.width, grasp.inner)) return fail(counts.width);
+  if (grasp.friction > friction) return fail(counts.friction);
+  const Eigen::Vector2d between = 0.5 * (right->centroid + left->centroid);
+  const Vec3 offset = part.mass().center - grasp.pose * Vec3(0.0, between.x(), between.y());
+  grasp.lever = (offset - offset.dot(axis) * axis).norm();
+  grasp.contacts = pad_contacts_of(*right, *left, grasp.width);
+  const double half = 0.5 * grasp.width;
+  grasp.second = {Vec3(half, right->lower.x(), right->lower.y()), Vec3(half, right->upper.x(), right->upper.y())};
+  grasp.first = {Vec3(-half, left->lower.x(), left->lower.y()), Vec3(-half, left->upper.x(), left->upper.y())};
+  return grasp;
 }
 
 namespace {
 
-/// The pair in the pad's centre, or so much of the pad's length nearer to the tip; the last one only where nothing else
-/// goes, as over a floor with long pads.
+/// Distances of the pair of points from the pad's centre towards the tip / pad length. The last one is tried only if no
+/// other one is possible, for example with long pads above a floor.
 constexpr double depths[] = {0.0, 0.3, 0.42};
 
-/// Grasps of one pair of points from all sides.
+/// Grasps of one pair of points, approached from all sides.
 ClosingAxis turn_about(const Pair& pair, const PartModel& part, const Gripper& gripper, double friction,
                        const Vec3& from, GraspCounts& counts, std::vector<Grasp>& grasps) {
   ClosingAxis axis{pose_about(pair, from, 0.0), (pair.near - pair.far).norm(), pair.inner, 0};

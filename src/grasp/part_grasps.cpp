@@ -1,4 +1,4 @@
-/// Grasps of a part: tried densely, thinned by distance and by symmetries of the part, measured, cached.
+/// Grasps of a part alone: a dense search, thinned by distance and by the symmetries of the part, and cached on disk.
 #include "bin_scenes/grasp/part_grasps.hpp"
 
 #include "grasp/directions.hpp"
@@ -14,17 +14,17 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int grasp_format = 7;          ///< raise it whenever the search for grasps changes
-constexpr double symmetry_limit = 1e-3;  ///< / diagonal: symmetries that a gripper cannot distinguish from exact ones
-constexpr double first_apart = 0.03;     ///< / diagonal: of thinning
-constexpr double first_angle = 0.3;      ///< rad
-constexpr std::size_t left_out_one_of = 8;   ///< for the measure of coverage
-constexpr double covered_within = 3.0;       ///< times those distances: a pose that a placed grasp covers
-constexpr std::size_t most_grasps = 2000;    ///< that no symmetry makes alike
-constexpr std::size_t most_searched = 1500;  ///< closing axes, or places of a cup, for a scene's own search
-constexpr double axis_angle = 0.1;           ///< rad: of thinning of closing axes
+constexpr int grasp_format = 8;              ///< raise it whenever the search for grasps changes
+constexpr double symmetry_limit = 1e-3;      ///< / diagonal: residual of symmetries that count as exact
+constexpr double first_apart = 0.03;         ///< / diagonal: distance of thinning
+constexpr double first_angle = 0.3;          ///< rad: angle of thinning
+constexpr std::size_t left_out_one_of = 8;   ///< one of so many poses is set apart to measure coverage
+constexpr double covered_within = 3.0;       ///< coverage / thinning: ratio of their distances and angles
+constexpr std::size_t most_grasps = 2000;    ///< no two of which are equal by symmetry
+constexpr std::size_t most_searched = 1500;  ///< closing axes, or places of a cup, for the search in a scene
+constexpr double axis_angle = 0.1;           ///< rad: angle of thinning of closing axes
 
-/// Smaller is better: what is needed of the friction there is, or of the lip, and the lever of the weight.
+/// Smaller is better: the share of friction or lip that the grasp needs, and the lever of the weight.
 double badness(const Grasp& grasp, const PartModel& part, const Gripper& gripper, double friction) {
   const double holding =
       gripper.type == Gripper::Type::parallel ? grasp.friction / friction - 0.5 * grasp.share : grasp.gap / gripper.lip;
@@ -37,7 +37,7 @@ std::vector<Pose> poses_of(const std::vector<Grasp>& grasps) {
   return poses;
 }
 
-/// Places grasps from index `first` on, which are of one kind.
+/// Places the grasps from index `first` on; all of them are from outside, or all from within.
 void place(PartGrasps& found, std::size_t first, const PoseMeasure& symmetric, const PoseMeasure::Limits& limits,
            const Gripper& gripper) {
   std::vector<PartGrasps::Placed> all;
@@ -52,7 +52,7 @@ void place(PartGrasps& found, std::size_t first, const PoseMeasure& symmetric, c
     (chosen++ < gripper.most ? found.placed : found.spare).push_back(all[i]);
 }
 
-/// Each axis in all places to which symmetries bring it, a coarse cover of the part first.
+/// The axes in all places to which symmetries move them. The first ones cover the part coarsely.
 std::vector<ClosingAxis> spread_axes(std::vector<ClosingAxis> all, const PartModel& part,
                                      const Symmetries& symmetries) {
   const auto cost = [&](const ClosingAxis& axis) {
@@ -60,7 +60,7 @@ std::vector<ClosingAxis> spread_axes(std::vector<ClosingAxis> all, const PartMod
   };
   std::stable_sort(all.begin(), all.end(),
                    [&](const ClosingAxis& a, const ClosingAxis& b) { return cost(a) < cost(b); });
-  // Measured like cups: turns about the axis do not matter.
+  // Distances are measured as for cups, because turns about the axis do not matter.
   const PoseMeasure symmetric(symmetries, Gripper::Type::suction), plain({}, Gripper::Type::suction);
   const PoseMeasure::Limits limits{first_apart * part.diagonal(), axis_angle};
   const Quat along_z(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitY()));  // z of the turned frame is x of the axis
@@ -95,8 +95,8 @@ std::size_t covered_of(const PartGrasps& found, const std::vector<Grasp>& left_o
   return static_cast<std::size_t>(std::count_if(left_out.begin(), left_out.end(), is_covered));
 }
 
-/// Grasps and closing axes from outside, or those from within. The kinds are thinned apart: poses of a ring's grasps
-/// from outside and from within are the same.
+/// The grasps or closing axes from outside, or those from within. Both kinds are thinned separately, because a grasp of
+/// a ring from outside may have the same pose as one from within.
 template <class Kind>
 std::vector<Kind> of_kind(const std::vector<Kind>& all, bool inner) {
   std::vector<Kind> chosen;
@@ -104,7 +104,7 @@ std::vector<Kind> of_kind(const std::vector<Kind>& all, bool inner) {
   return chosen;
 }
 
-/// Sets some poses apart for the measure of coverage, and keeps the others, the best ones first.
+/// Sets some grasps apart to measure coverage, and returns the others.
 std::vector<Grasp> taken_of(const std::vector<Grasp>& all, std::vector<Grasp>& left_out) {
   std::vector<Grasp> taken;
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -17,7 +17,7 @@ struct PlacedPart {
   int id = -1;           ///< -1: the bin
   std::size_t line = 0;  ///< of parts
   bool movable = false;
-  std::vector<Vec3> tops;  ///< of movable parts: points of the surface that look up, spread evenly; bin frame
+  std::vector<Vec3> tops;  ///< movable parts: points spread over the upper side of the surface; bin frame
 };
 
 class PlacedParts {
@@ -26,9 +26,10 @@ class PlacedParts {
 
   const std::vector<PlacedPart>& all() const { return all_; }  ///< parts in the order of the scene, then the bin
   const Vec3& up() const { return up_; }                       ///< unit, against gravity
-  double top() const { return top_; }                          ///< m along up: of everything, rims included
+  double top() const { return top_; }                          ///< m along up: highest point of all parts and the bin
   bool flat_floor() const { return flat_floor_; }              ///< whether the bin's floor is the plane z = 0
-  /// The first of `order`, by index into all(), that a sweep meets, if any: its id. The endless floor comes last.
+  /// The id of the first part or bin with which a sweep collides; `order` holds indices into all(). The endless floor
+  /// is tested last.
   std::optional<int> met_by(const Sweep& sweep, const std::vector<std::size_t>& order) const;
 
  private:
@@ -39,7 +40,7 @@ class PlacedParts {
   double top_ = 0.0;
 };
 
-/// Highest and lowest of a box along a direction.
+/// Largest and smallest coordinate of a box along a direction.
 double highest(const Aabb& box, const Vec3& direction);
 double lowest(const Aabb& box, const Vec3& direction);
 

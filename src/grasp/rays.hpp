@@ -1,4 +1,4 @@
-/// All places where a line passes through the surface of a mesh.
+/// The points where a ray passes through the surface of a mesh.
 #pragma once
 
 #include "bin_scenes/part/mesh_query.hpp"
@@ -12,7 +12,7 @@ struct Passage {
   std::size_t triangle;  ///< of the mesh
 };
 
-/// Ordered by distance, those ahead of the origin by more than `from`.
+/// All passages at a distance of more than `from` (m) from the origin, ordered by distance.
 std::vector<Passage> passages(const MeshQuery& mesh, const Vec3& origin, const Vec3& direction, double from);
 
 }  // namespace bin_scenes

@@ -10,10 +10,10 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double farthest_back = 3.0;  ///< m: of an approach from outside the bin
-constexpr double upright = 0.02;       ///< rad: an approach that the lift retraces
+constexpr double farthest_back = 3.0;  ///< m: longest approach
+constexpr double upright = 0.02;       ///< rad: at a smaller angle of approach and lift, the lift follows the approach
 
-/// Neighbours of a part by distance: the nearest are met most often.
+/// Neighbours of a part by distance, because collisions with the nearest ones are the most frequent.
 std::vector<std::size_t> order_around(const PlacedParts& placed, const PlacedPart& part) {
   const std::vector<PlacedPart>& all = placed.all();
   std::vector<std::pair<double, std::size_t>> by_distance;
@@ -58,7 +58,7 @@ bool Reach::meets(SceneGrasp& grasp) const {
 double Reach::room(const SceneGrasp& grasp) const {
   const double wider = 2.0 * std::max(gripper_.clearance, 5e-4);
   for (const double factor : {1.0, 2.0}) {
-    // Beside the gripper, not before its tips: how near those come to the floor is a matter of depth.
+    // The room beside the gripper counts. The distance of its tips from the floor is no measure of room.
     SceneGrasp tried = grasp;
     const double margin = factor * wider;
     tried.pose.position -= (margin - gripper_.clearance) * (grasp.pose.orientation * Vec3::UnitZ());

@@ -1,4 +1,4 @@
-/// What a gripper meets on its path to a part and away from it.
+/// Collisions of a gripper on its path to a part and out of the bin.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"
@@ -8,16 +8,16 @@
 
 namespace bin_scenes {
 
-/// One part among the others, for all grasps of a gripper.
+/// The surroundings of one part, for all grasps by one gripper.
 class Reach {
  public:
   /// @param lift  unit: direction in which the part is lifted
   Reach(const PlacedParts& placed, const PlacedPart& part, const Gripper& gripper, const Vec3& lift);
 
-  /// Whether the gripper, grown by its clearance, meets others or the bin as it comes, closes or goes up; says where
-  /// and whom in the grasp.
+  /// Whether the gripper, grown by its clearance, collides with other parts or with the bin while it approaches, closes
+  /// or is lifted. Sets SceneGrasp::obstacle and other.
   bool meets(SceneGrasp& grasp) const;
-  /// Room beside a free grasp: 0 where only its clearance is free, 0.5 where twice that is, 1 where four times that is.
+  /// The column `clearance` of a free grasp: 0, or 0.5 if twice the clearance is free, or 1 if four times is.
   double room(const SceneGrasp& grasp) const;
 
  private:
@@ -28,7 +28,7 @@ class Reach {
   const PlacedParts& placed_;
   const Gripper& gripper_;
   const Vec3 lift_;
-  std::vector<std::size_t> order_;  ///< of all others, the nearest first
+  std::vector<std::size_t> order_;  ///< all other parts and the bin, the nearest first
 };
 
 }  // namespace bin_scenes

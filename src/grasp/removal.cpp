@@ -1,6 +1,6 @@
-/// A part goes straight up, against gravity, until it is out of the bin, or along the direction nearest to that which
-/// the request permits and nothing is in the way of. Whom its mesh would meet, or who presses down on it, has to go
-/// first.
+/// A part is lifted straight up, against gravity, until it is above all others, or along the free direction nearest to
+/// the vertical that the request permits. Parts that its mesh would collide with, or that press down on it, have to be
+/// removed before it.
 #include "grasp/removal.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -8,6 +8,7 @@
 #include "bin_scenes/quality/quality.hpp"
 #include "grasp/overlap.hpp"
 #include "grasp/rays.hpp"
+#include "grasp/separation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,21 +20,21 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double lies_on = 0.05;       ///< load / weight of the lighter one, from which a part lies on another
-constexpr double supports = 0.2;       ///< sine of the normal's angle to the horizontal, from which a contact supports
-constexpr double most_overlap = 0.02;  ///< / smaller diagonal: of parts at rest, which is no hold
-constexpr double side_play = 1e-3;     ///< / smaller diagonal: by which a gripper yields to what it grazes
-constexpr double cone_step = 0.18;     ///< rad: between the tilts of lifts that are tried
-constexpr int cone_directions = 8;     ///< of each tilt
+constexpr double lies_on = 0.05;       ///< a part with more load / weight of the lighter one lies on the other
+constexpr double supports = 0.2;       ///< a contact whose normal has a larger upward component supports a part
+constexpr double most_overlap = 0.02;  ///< / smaller diagonal: overlap of parts at rest that is removed before a lift
+constexpr double side_play = 1e-3;     ///< / smaller diagonal: sideways play of a part in a gripper
+constexpr double cone_step = 0.18;     ///< rad between the tilts of lifts that are tried
+constexpr int cone_directions = 8;     ///< directions of lifts that are tried at each tilt
 
 /// Forces that act on one part.
 struct Acting {
-  double load = 0.0, drag = 0.0;   ///< N
-  std::map<int, double> pressing;  ///< N down, by the other's id
+  double load = 0.0, drag = 0.0;   ///< N: downwards; friction at the sides
+  std::map<int, double> pressing;  ///< N downwards, by the id of the other part
 };
 
-/// Above where it lies by `raise`, and a little beside: of equal parts exactly above each other all edges would only
-/// touch.
+/// The pose raised by `raise`, and moved a little sideways: otherwise, all edges of equal parts exactly above each
+/// other would only touch.
 Pose nudged(const PlacedPart& part, const Vec3& direction, double raise, double size) {
   const Vec3 center = part.box.center();
   const Quat turn(Eigen::AngleAxisd(1e-4, direction));
@@ -41,7 +42,8 @@ Pose nudged(const PlacedPart& part, const Vec3& direction, double raise, double 
   return {center + turn * (part.pose.position - center) + moved, (turn * part.pose.orientation).normalized()};
 }
 
-/// Whether a line from the part's surface along the direction enters the other one, farther than `from`. A quick yes.
+/// Whether a ray from the part's surface along the direction enters the other part between `from` and `limit`. If so,
+/// the other part obstructs it for certain, and no exact test is needed.
 bool stands_over(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit, double from) {
   const Pose into = other.pose.inverse();
   const Vec3 along = into.orientation * direction;
@@ -87,7 +89,7 @@ class Forces {
   std::map<int, Acting> acting_;
 };
 
-/// Whether the part only grazes what it meets after `free`: moved aside a little it passes.
+/// Whether the part only grazes what it meets at the distance `free`: it passes if it is moved aside a little.
 bool grazes(const PlacedPart& other, const PlacedPart& part, Pose pose, const Vec3& direction, double free,
             double limit) {
   const double play = side_play * std::min(part.box.diagonal(), other.box.diagonal());
@@ -114,21 +116,24 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direct
   swept.extend(Vec3(part.box.upper + limit * direction));
   if (!swept.overlaps(other.box)) return false;
   const double smaller = std::min(part.box.diagonal(), other.box.diagonal());
+  const SeparatingPlane plane =
+      separating_plane({*part.mesh, part.pose}, limit * direction, {*other.mesh, other.pose}, side_play * smaller);
+  if (plane.gap >= -side_play * smaller) return false;
+  const Vec3 guide = plane.normal.dot(direction) >= 0.0 ? plane.normal : Vec3(Vec3::Zero());
   if (stands_over(other, part, direction, limit, 2e-3 * smaller)) return true;
-  // Parts at rest overlap a little where they touch. What they lie on is left behind by a small raise, and sides slide
-  // along each other when the overlap is taken out and a gripper yields a little; only what still obstructs it then
-  // counts.
+  // Parts at rest overlap a little where they touch. A small raise separates a part from its support. At its sides, the
+  // overlap is removed first, with a little play; only a part that still obstructs it then counts.
   for (const double raise : {1e-5, 2e-4, 2e-3}) {
     const Pose pose = nudged(part, direction, raise * smaller, smaller);
-    const double free = free_distance(*part.mesh, pose, *other.mesh, other.pose, direction, limit);
+    const double free = free_distance(*part.mesh, pose, *other.mesh, other.pose, direction, limit, guide);
     if (free > 0.0) return free < limit && !grazes(other, part, pose, direction, free, limit);
     const Penetration overlap = penetration(*part.mesh, pose, *other.mesh, other.pose);
-    // The other one, to be moved up out of the part, lies on it.
+    // If the other part has to move up to leave the overlap, it lies on this one.
     if (overlap.depth > most_overlap * smaller || overlap.direction.dot(direction) > supports) return true;
     for (const double play : {1e-6, side_play}) {
       Pose apart = pose;
       apart.position -= (overlap.depth + play * smaller) * overlap.direction;
-      const double then = free_distance(*part.mesh, apart, *other.mesh, other.pose, direction, limit);
+      const double then = free_distance(*part.mesh, apart, *other.mesh, other.pose, direction, limit, guide);
       if (then >= limit) return false;
       if (then > most_overlap * smaller) return true;
     }
@@ -138,7 +143,7 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direct
 
 namespace {
 
-/// Whether a part can be moved by `move` past all others. It may graze what it lies on and what it touches.
+/// Whether a part can be moved by `move` without obstruction. It may slide along the parts that it touches.
 bool passes(const PlacedParts& placed, const PlacedPart& part, const Vec3& move) {
   const double length = move.norm();
   if (!(length > 0.0)) return true;
@@ -171,7 +176,7 @@ void measure_overlaps(std::vector<PartPick>& picks, const PlacedParts& placed, d
 
 namespace {
 
-/// The displacement nearest to the vertical, within the cone, by which a part leaves the bin and meets nothing.
+/// The displacement nearest to the vertical, within the cone, that lifts the part above all others without a collision.
 std::optional<Vec3> free_lift(const PlacedParts& placed, const PlacedPart& part, double height, double cone) {
   const Vec3 &up = placed.up(), across = up.unitOrthogonal();
   const int rings = static_cast<int>(std::ceil(cone / cone_step - 1e-9));
@@ -232,7 +237,7 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
 
 namespace {
 
-/// Takes parts out one after another, or as sets that hold each other.
+/// Removes parts one after another, or as sets that block each other.
 class Remover {
  public:
   Remover(std::vector<PartPick>& picks, const PlacedParts& placed) {
@@ -249,7 +254,7 @@ class Remover {
         sets.push_back(set_of(ids));
         remove(ids);
       } else {
-        std::set<int> rest;  // what something fixed covers, and what that holds
+        std::set<int> rest;  // parts below something fixed, and those that they block
         for (const auto& [id, pick] : left_) rest.insert(id);
         for (const int id : by_height(rest)) order_.push_back(id);
         left_.clear();
@@ -269,7 +274,7 @@ class Remover {
     return best;
   }
 
-  /// All that has to leave before or with a part; empty if something fixed is among it.
+  /// All parts that have to be removed before or together with a part; empty if one of them is fixed.
   std::set<int> needed_by(int id) const {
     std::set<int> all = {id};
     std::vector<int> open = {id};
@@ -285,7 +290,7 @@ class Remover {
     return all;
   }
 
-  /// What the fewest need each other; of equal ones that with the lowest id.
+  /// The smallest set of parts that block each other; of equally small ones that of the lowest id.
   std::set<int> smallest_held() const {
     std::set<int> best;
     for (const auto& [id, pick] : left_) {
@@ -316,7 +321,7 @@ class Remover {
     return held;
   }
 
-  /// All of them in the same round.
+  /// Removes parts in the same round.
   void remove(const std::vector<int>& ids) {
     int depth = 0;
     for (const int id : ids)
@@ -332,7 +337,7 @@ class Remover {
 
   std::map<int, double> height_;
   std::map<int, PartPick*> left_;
-  std::map<int, int> depth_;  ///< of those that are out
+  std::map<int, int> depth_;  ///< of the parts that were removed
   std::vector<int> order_;
 };
 

@@ -1,4 +1,4 @@
-/// What hinders parts from being lifted straight up, and in which order they come free.
+/// Which parts obstruct the lift of others, and an order in which all parts can be lifted.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"
@@ -6,15 +6,15 @@
 
 namespace bin_scenes {
 
-/// Picks of all movable parts, without depth: load, pull and what blocks them.
+/// Load, pull, lift, blocking parts and overlaps of all movable parts; their depth is not filled in.
 std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, const PlacedParts& placed);
 
-/// Fills in the depths, and returns the order of all parts and the sets that leave together. A set is as small as can
-/// be: each of its parts is held, through others, by every one of them.
+/// Fills in the depths, and returns the order of removal of all parts and the sets of parts that have to be lifted
+/// together. A set is as small as possible: each of its parts is blocked, directly or through others, by all of them.
 std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed,
                                std::vector<SceneGrasps::HeldSet>& sets);
 
-/// Whether `other` obstructs `part` as it goes along `direction` (unit) up to `limit` (m).
+/// Whether `other` obstructs a movement of `part` along `direction` (unit) by `limit` (m).
 bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit);
 
 }  // namespace bin_scenes

@@ -1,5 +1,5 @@
-/// Grasps of the parts are taken to where the parts lie and asked, cheapest question first: tilt, what blocks the part,
-/// what the grasp holds, and what the gripper meets on its path.
+/// The grasps of each part are moved to the pose of the part in the scene and tested, the cheapest test first: tilt,
+/// blocking parts, holding, collisions.
 #include "bin_scenes/grasp/scene_grasps.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
@@ -43,7 +43,7 @@ double best(const std::vector<double>& shares) {
   return shares.empty() ? 1.0 : *std::max_element(shares.begin(), shares.end());
 }
 
-/// One part for one gripper: rates grasps, and asks, cheapest question first, whether they are free.
+/// Rates the grasps of one part by one gripper, and tests whether they are free.
 class PartGrasper {
  public:
   PartGrasper(const LoadedRequest& loaded, const PlacedParts& placed, const PlacedPart& part, PartPick& pick,
@@ -63,7 +63,8 @@ class PartGrasper {
                lift_};
   }
 
-  /// Appends the grasps that every scene tries, and of a part that can be lifted those of the scene's own search.
+  /// Appends the grasps that every scene tries and, if the part can be lifted, those that the search in the scene
+  /// finds.
   void add_to(std::vector<SceneGrasp>& all, const PartGrasps& grasps, const std::vector<Eye>& eyes) const {
     for (const PartGrasps::Placed& one : grasps.placed) {
       stop_if_cancelled();
@@ -85,7 +86,14 @@ class PartGrasper {
       if (!searched.listed) all.push_back(std::move(grasp));
       return true;
     };
-    pick_.searches.push_back(search_scene({placed_, part_, model_, gripper_, grasps, friction_}, keep));
+    const auto is_reached = [&](const Pose& pose, const Aperture& at) {
+      SceneGrasp probe;
+      probe.pose = pose;
+      probe.width = at.width;
+      probe.inner = at.inner;
+      return !reach_.meets(probe);
+    };
+    pick_.searches.push_back(search_scene({placed_, part_, model_, gripper_, grasps, friction_}, is_reached, keep));
     pick_.searches.back().gripper = index_;
   }
 
@@ -157,8 +165,12 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
   for (const PlacedPart& part : placed.all()) {
     if (!part.movable) continue;
     PartPick& pick = result.parts[next++];
-    for (std::size_t g = 0; g < grippers.size(); ++g)
+    for (std::size_t g = 0; g < grippers.size(); ++g) {
+      const auto first = static_cast<std::ptrdiff_t>(result.grasps.size());
       PartGrasper(loaded, placed, part, pick, g).add_to(result.grasps, *known.at({part.line, g}), eyes);
+      std::stable_sort(result.grasps.begin() + first, result.grasps.end(),
+                       [](const SceneGrasp& a, const SceneGrasp& b) { return a.score > b.score; });
+    }
   }
   BIN_SCENES_ASSERT(next == result.parts.size());
   return result;
@@ -201,7 +213,8 @@ std::string reason_of(const SceneGrasp& grasp, const PartPick& part) {
 
 namespace {
 
-/// Whether an upright palm does not go into the bin, however it is turned, and fingers do not reach the floor.
+/// Whether an upright palm does not fit into the bin at any turn about the vertical, so that fingers do not reach the
+/// floor.
 bool stays_above(const Gripper& gripper, const Bin& bin) {
   const Vec3& room = bin.inner_size;
   return bin.kind == Bin::Kind::box && gripper.finger_depth < room.z() &&

@@ -1,5 +1,5 @@
-/// Candidates are sorted into bands of tilt. Of each band a chunk that covers the part coarsely is tried first, its
-/// cheapest candidates first; then the next band; then finer chunks.
+/// Candidates are sorted into bands by tilt. Of each band, a first chunk that covers the part coarsely is tried, in the
+/// order of cost; after the last band, the second chunk of each band follows, and so on.
 #include "grasp/scene_search.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -19,19 +19,19 @@ constexpr double band_width = 0.175;     ///< rad
 constexpr std::size_t chunk = 40;        ///< candidates of a band
 constexpr double turn_step = 0.262;      ///< rad, about the closing axis
 constexpr int most_turns = 3;            ///< to either side
-constexpr double levelled_up_to = 0.2;   ///< rad: a closing axis so near the horizontal is tried as horizontal, too
-constexpr double level = 0.005;          ///< rad: closing axes that need no levelling
+constexpr double levelled_up_to = 0.2;   ///< rad: closing axes with a smaller slope are also tried horizontally
+constexpr double level = 0.005;          ///< rad: closing axes with a smaller slope count as horizontal
 constexpr double depth_step = 0.15;      ///< of the pad's length
 constexpr double least_hold = 0.45;      ///< of the pad's length: largest distance of the axis from the pad's centre
-constexpr double alike_distance = 0.06;  ///< / diagonal: of free grasps that are alike
-constexpr double alike_angle = 0.25;     ///< rad
-constexpr double width_cost = 0.5;       ///< of width / stroke, beside 1 of the tilt and 1 of the lever / radius
+constexpr double alike_distance = 0.06;  ///< / diagonal: distance of free grasps that count as similar
+constexpr double alike_angle = 0.25;     ///< rad: and their angle
+constexpr double width_cost = 0.5;       ///< weight of width / stroke in the cost; tilt and lever / radius have 1
 
 struct Candidate {
   Pose pose;          ///< of the gripper in the bin frame
   double tilt = 0.0;  ///< rad
-  double cost = 0.0;  ///< within a chunk, cheaper ones go first
-  Aperture guess;     ///< of the surfaces
+  double cost = 0.0;  ///< order within a chunk
+  Aperture guess;     ///< at the closing axis, before the pads are pressed on
   std::size_t index = 0;
 };
 
@@ -60,8 +60,9 @@ double tilt_of(const Vec3& approach, const Vec3& up) {
 
 class Searcher {
  public:
-  Searcher(const SearchedPart& searched, const KeepIfFree& keep)
+  Searcher(const SearchedPart& searched, const IsReached& is_reached, const KeepIfFree& keep)
       : s_(searched),
+        is_reached_(is_reached),
         keep_(keep),
         measure_({}, searched.gripper.type),
         limits_{alike_distance * searched.model.diagonal(), alike_angle} {}
@@ -115,7 +116,7 @@ class Searcher {
     return (offset - offset.dot(up) * up).norm() / s_.model.radius();
   }
 
-  /// Whether the part itself leaves room for an approach, to within one turn.
+  /// Whether the gripper did not collide with the part itself at one of the nearest turns that were tried.
   bool leaves_room(const ClosingAxis& axis, const Vec3& approach) const {
     const Vec3 local = (s_.part.pose.orientation * axis.pose.orientation).conjugate() * approach;
     const double turn = std::atan2(-local.y(), local.z()) / (2.0 * M_PI) * ClosingAxis::turns;
@@ -171,7 +172,7 @@ class Searcher {
     return all;
   }
 
-  /// How far a gripper has to be drawn back along its approach, so that its lowest point clears the floor (m).
+  /// Distance (m) by which the gripper has to move back along its approach so that it does not touch the floor.
   double above_floor(const Candidate& candidate) const {
     if (!s_.placed.flat_floor()) return 0.0;
     const double down = -(candidate.pose.orientation * Vec3::UnitZ()).z();
@@ -182,17 +183,19 @@ class Searcher {
     return down > 0.05 ? std::max(0.0, rounding - lowest) / down : 0.0;
   }
 
-  /// The axis at the pad's centre, or as near as the floor lets it be, then nearer to the tip.
+  /// Tries the closing axis at the pad's centre, or as near to it as the floor permits, and then nearer to the tip.
   void try_depths(const Candidate& candidate) {
     const double length = s_.gripper.pad_length;
     const Pose into_part = s_.part.pose.inverse();
+    const IsClear is_clear = [&](const Pose& pose, const Aperture& at) { return is_reached_(s_.part.pose * pose, at); };
     GraspCounts counts;
     double back = above_floor(candidate);
     if (back > least_hold * length) return count(candidate.tilt);
     for (; back <= least_hold * length && !over(); back += depth_step * length) {
       Pose pose = candidate.pose;
       pose.position -= back * (pose.orientation * Vec3::UnitZ());
-      const auto grasp = close_fingers(s_.model, s_.gripper, s_.friction, into_part * pose, candidate.guess, counts);
+      const auto grasp =
+          close_fingers(s_.model, s_.gripper, s_.friction, into_part * pose, candidate.guess, counts, is_clear);
       if (!grasp) {
         count(candidate.tilt);
         continue;
@@ -202,6 +205,7 @@ class Searcher {
   }
 
   const SearchedPart& s_;
+  const IsReached& is_reached_;
   const KeepIfFree& keep_;
   PoseMeasure measure_;
   PoseMeasure::Limits limits_;
@@ -215,8 +219,8 @@ class Searcher {
 
 }  // namespace
 
-PartSearch search_scene(const SearchedPart& searched, const KeepIfFree& keep) {
-  Searcher searcher(searched, keep);
+PartSearch search_scene(const SearchedPart& searched, const IsReached& is_reached, const KeepIfFree& keep) {
+  Searcher searcher(searched, is_reached, keep);
   return searched.gripper.type == Gripper::Type::parallel ? searcher.with_fingers() : searcher.with_cup();
 }
 

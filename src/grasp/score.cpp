@@ -7,9 +7,9 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double safe = 6.0;         ///< factor of safety from which more is of no use; its inverse likewise
-constexpr double enough_pad = 0.05;  ///< share of the pad: with so much, 1 - 1/e of the column
-constexpr double wide_margin = 0.5;  ///< of a cup's radius: more margin is of no use
+constexpr double safe = 6.0;         ///< safety factors are limited to 1 / safe .. safe
+constexpr double enough_pad = 0.05;  ///< share of the pad in contact at which the column is 1 - 1/e
+constexpr double wide_margin = 0.5;  ///< / radius of the cup: margin at which the column is 1
 
 }  // namespace
 

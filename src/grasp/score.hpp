@@ -1,4 +1,4 @@
-/// One number from the columns of a grasp.
+/// The score of a grasp from its columns.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"
@@ -6,11 +6,12 @@
 
 namespace bin_scenes {
 
-/// Those that do not depend on neighbours and images: safety, antipodal, moment, overlap, upright, closing.
+/// The columns that do not depend on neighbours and images: safety, sliding, antipodal, moment, overlap, upright,
+/// closing.
 /// @param tilt  rad, angle of approach and gravity
 GraspColumns columns_of(const Grasp& grasp, const Hold& hold, const Gripper& gripper, double friction, double tilt);
 
-/// 0..1.
+/// 1 / (1 + exp(-(bias + sum of weight * column))); the safety factors count by their logarithms.
 double score_of(const GraspColumns& columns, const ScoreWeights& weights);
 
 }  // namespace bin_scenes

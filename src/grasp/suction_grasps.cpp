@@ -1,6 +1,7 @@
-/// A cup is set on the surface along its normal. Rays along its axis measure the heights below its ring and within it;
-/// the bellows takes up their tilt, the lip what is left (Mahler et al. 2018, "Dex-Net 3.0"; Cao et al. 2021,
-/// "SuctionNet-1Billion", which scores a seal by what a plane through the ring leaves).
+/// A cup is set on the surface along its normal. Rays along its axis measure the heights of the surface below the ring
+/// and within it. The bellows compensates the tilt of a plane through the heights below the ring, and the lip the
+/// residual (Mahler et al. 2018, "Dex-Net 3.0"; Cao et al. 2021, "SuctionNet-1Billion", which scores seals by that
+/// residual).
 #include "grasp/suction_grasps.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -17,8 +18,9 @@ namespace {
 
 constexpr std::size_t cups_tried = 5000;
 constexpr int ring_rays = 24, ring_contacts = 8;
+constexpr int margin_rays = 96;    ///< an edge between two rays may be nearer than they find, by 0.1 % of the radius
 constexpr double rounding = 1e-5;  ///< / diagonal
-constexpr double wide = 0.5;       ///< of the radius: a margin that is wide enough
+constexpr double wide = 0.5;       ///< / radius: margins are measured up to this value
 constexpr int margin_steps = 4;
 
 /// Surface below the ring and inside it, along the cup's axis.
@@ -27,10 +29,10 @@ struct Footprint {
   double inner_low, inner_high;        ///< m, of points inside the ring
 };
 
-/// The plane through the ring's heights, and what it leaves.
+/// The plane through the heights below the ring, and the residuals.
 struct Plane {
   double mean = 0.0, along_x = 0.0, along_y = 0.0;  ///< m: height, and amplitudes of the tilt
-  double low = 0.0, high = 0.0;                     ///< m: what is left, at least and at most
+  double low = 0.0, high = 0.0;                     ///< m: smallest and largest residual
 };
 
 Vec3 on_ring(double radius, int i, int count) {
@@ -60,7 +62,7 @@ class CupFitter {
   CupFitter(const PartModel& part, const Gripper& gripper)
       : part_(part), gripper_(gripper), above_(gripper.radius + gripper.travel()) {}
 
-  /// None where the ring or the centre finds no surface: it hangs over an edge or a hole.
+  /// None if there is no surface below a point of the ring or of its inside, at an edge or a hole.
   std::optional<Footprint> footprint(const Pose& pose) const {
     Footprint print;
     if (!ring(pose, gripper_.radius, print.ring)) return std::nullopt;
@@ -77,17 +79,20 @@ class CupFitter {
     return print;
   }
 
-  /// Distance of the ring from edges and holes, at most half its radius or what the gripper asks for; negative: less
-  /// than that. An edge is where no surface is, or where it falls away more steeply than 45 degrees.
+  /// Distance of the ring from edges and holes, at most the larger one of Gripper::margin and half the radius; negative
+  /// if it is less than Gripper::margin. An edge is where there is no surface, or where it falls away more steeply than
+  /// 45 degrees.
   double margin(const Pose& pose, const Footprint& print) const {
     const double asked = gripper_.margin, most = std::max(asked, wide * gripper_.radius);
     double found = asked > 0.0 ? -1.0 : 0.0;
     for (int step = asked > 0.0 ? 0 : 1; step <= margin_steps; ++step) {
       const double beyond = asked + step * (most - asked) / margin_steps;
-      std::array<double, ring_rays> heights;
-      if (!ring(pose, gripper_.radius + beyond, heights)) return found;
-      for (int i = 0; i < ring_rays; ++i)
-        if (print.ring[i] - heights[i] > gripper_.lip + beyond) return found;
+      for (int i = 0; i < margin_rays; ++i) {
+        double there = 0.0;
+        if (!height(pose, on_ring(gripper_.radius + beyond, i, margin_rays), there)) return found;
+        const int nearest = (i * ring_rays + margin_rays / 2) / margin_rays % ring_rays;
+        if (print.ring[nearest] - there > gripper_.lip + beyond) return found;
+      }
       found = beyond;
     }
     return found;
@@ -123,7 +128,7 @@ Pose facing(const Vec3& point, const Vec3& normal, const Mat3& principal) {
   return {point, Quat(frame).normalized()};
 }
 
-/// Turned so that the plane through the ring's heights is level.
+/// The pose, turned so that the plane through the heights below the ring is perpendicular to the axis of the cup.
 Pose levelled(const Pose& pose, const Plane& plane, double radius, const Mat3& principal) {
   // Heights count against z: the surface's normal is (-slope, -1) in the cup's frame, towards the cup.
   const Vec3 normal = pose.orientation * Vec3(-plane.along_x / radius, -plane.along_y / radius, -1.0).normalized();
@@ -140,7 +145,7 @@ std::vector<Vec3> ring_contacts_of(const Footprint& print, double radius, double
   return points;
 }
 
-/// One pose, whose tilt the bellows need not take up where the surface can be met straight.
+/// The cup at one point. It is turned so that the bellows has to compensate as little tilt as possible.
 std::optional<Grasp> set_cup(const PartModel& part, const Gripper& g, const SpreadPoint& at, GraspCounts& counts) {
   const Mat3 principal = part.mass().principal_axes.toRotationMatrix();
   const CupFitter fitter(part, g);
@@ -157,7 +162,7 @@ std::optional<Grasp> set_cup(const PartModel& part, const Gripper& g, const Spre
   const Plane plane = plane_of(*print);
   Grasp grasp;
   grasp.gap = plane.high - plane.low;
-  // Deeper than its radius, what is below the cup counts as a hole that lets air in.
+  // A depression deeper than the radius counts as a hole that lets air in.
   const double tilt = 2.0 * std::hypot(plane.along_x, plane.along_y);
   if (grasp.gap > g.lip || tilt > g.travel() || print->inner_low < plane.mean - g.radius ||
       print->inner_high > plane.mean + g.travel() + grasp.gap) {
@@ -177,7 +182,7 @@ std::optional<Grasp> set_cup(const PartModel& part, const Gripper& g, const Spre
   const Vec3 offset = part.mass().center - pose.position;
   grasp.lever = (offset - offset.dot(z) * z).norm();
   grasp.contacts = ring_contacts_of(*print, g.radius, crest);
-  // The cup is hollow: what rises inside the ring is no obstacle.
+  // The cup is hollow: a surface that rises inside the ring is no obstacle.
   Pose raised = pose;
   raised.position -= (std::max(0.0, print->inner_high - crest) + rounding * part.diagonal()) * z;
   const Pose part_there = raised.inverse();

@@ -5,7 +5,7 @@
 
 namespace bin_scenes {
 
-/// Densely, in the order of the surface's points; counts all that was tried.
+/// All grasps that a dense search finds, in the order of the points of the surface; counts all poses that were tried.
 std::vector<Grasp> suction_grasps(const PartModel& part, const Gripper& gripper, GraspCounts& counts);
 
 }  // namespace bin_scenes

@@ -1,4 +1,4 @@
-/// Points spread evenly over a surface, always the same.
+/// Points that are spread evenly over a surface.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
@@ -8,10 +8,11 @@
 namespace bin_scenes {
 
 struct SpreadPoint {
-  Vec3 point, normal;  ///< of its triangle, outward
+  Vec3 point, normal;  ///< the normal of its triangle, outward
 };
 
-/// By area, whatever the triangles are like. A low-discrepancy sequence says where in its triangle a point lies.
+/// `count` points with equal areas between them, independent of the sizes of the triangles; a low-discrepancy sequence
+/// determines their places within triangles. The same mesh gives the same points.
 std::vector<SpreadPoint> spread_points(const Mesh& mesh, std::size_t count);
 
 }  // namespace bin_scenes

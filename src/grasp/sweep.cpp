@@ -1,5 +1,6 @@
-/// Separating axes: normals of the zonotope's faces, of the triangle, and products of their edges. Boxes of the tree
-/// are tried against the axes of faces and coordinates alone, which may keep a node that is apart, but loses none.
+/// The separating axes are the normals of the zonotope's faces and of the triangle, and the products of their edges.
+/// Boxes of the tree are tested with the axes of faces and coordinates only: this may visit a node that is apart, but
+/// never skips one that is not.
 #include "grasp/sweep.hpp"
 
 #include "part/tree_walk.hpp"

@@ -1,7 +1,8 @@
-/// What a moving box sweeps, and whether a placed mesh meets it.
+/// The volume that a moving box or cup sweeps, and its collisions with placed meshes.
 ///
-/// A box moved along a line sweeps a zonotope: the sum of segments, three for the box and one for the line. So does a
-/// round cup, as an eight-sided prism. One separating-axis test serves all of them, and is exact for triangles.
+/// A box that moves along a line sweeps a zonotope: the sum of four segments, three of the box and one of the line. A
+/// cup is an eight-sided prism, which is a zonotope as well. One separating-axis test serves all of them; it is exact
+/// for triangles.
 #pragma once
 
 #include "bin_scenes/part/mesh_query.hpp"
@@ -18,17 +19,17 @@ class Sweep {
   static Sweep cylinder(const Pose& pose, double radius, double low, double high);
   /// The same body moved by `displacement` as well.
   Sweep moved(const Vec3& displacement) const;
-  /// The same body with the pose in front.
+  /// The same body moved by a pose.
   Sweep placed(const Pose& pose) const;
 
   const Aabb& bounds() const { return bounds_; }
   double lowest(const Vec3& direction) const;
-  /// Whether any triangle of the mesh, placed by `pose`, has a point inside; touching is none.
+  /// Whether a triangle of the mesh at `pose` has a point inside. Touching is no collision.
   bool meets(const MeshQuery& mesh, const Pose& pose) const;
   bool meets(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
  private:
-  static constexpr int most = 6;  // segments: an octagon's four, a prism's one, a displacement's one
+  static constexpr int most = 6;  // segments: four of an octagon, one of the prism's height, one of a displacement
   Sweep() = default;
   void add(const Vec3& half);
   void finish();

@@ -12,9 +12,9 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double growth = 1.2;            ///< of the limits, from one cover to the coarser one
-constexpr double coarsest = 33.0;         ///< times the limits: the first cover
-constexpr std::size_t ball_images = 300;  ///< turns of a ball
+constexpr double growth = 1.2;            ///< ratio of the limits of one cover and of the next finer one
+constexpr double coarsest = 33.0;         ///< limits of the first cover, in units of the given ones
+constexpr std::size_t ball_images = 300;  ///< number of turns of a ball
 
 /// A turn of an even spread over all (Alexa 2022, "Super-Fibonacci spirals").
 Quat spread_turn(std::size_t i, std::size_t count) {
@@ -68,7 +68,7 @@ Quat PoseMeasure::about_axis(const Pose& a, const Pose& b, double arm) const {
 }
 
 double PoseMeasure::distance(const Pose& a, const Pose& b, const Limits& limits, double enough) const {
-  if (axes_.size() > 1) {  // a ball: only where its centre is, seen from the gripper, matters
+  if (axes_.size() > 1) {  // a ball: only the position of its centre in the gripper's frame matters
     Vec3 here = a.inverse() * axes_[0].point, there = b.inverse() * axes_[0].point;
     if (type_ == Gripper::Type::suction) {
       here = Vec3(here.head<2>().norm(), 0.0, here.z());

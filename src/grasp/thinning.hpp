@@ -1,4 +1,5 @@
-/// Poses that are as good as one: near each other, or made so by a symmetry of the part or of the gripper.
+/// Thinning of poses. Two poses are equivalent if they are near each other, or if a symmetry of the part or of the
+/// gripper moves one of them near the other.
 #pragma once
 
 #include "bin_scenes/grasp/part_grasps.hpp"
@@ -11,22 +12,22 @@ namespace bin_scenes {
 
 class PoseMeasure {
  public:
-  /// @param symmetries  of the part; empty: poses are kept apart that symmetries make alike
+  /// @param symmetries  of the part; empty: poses that are equal by symmetry are distinguished
   PoseMeasure(const Symmetries& symmetries, Gripper::Type type);
 
   struct Limits {
     double apart = 0.0, angle = 0.0;  ///< m, rad
   };
-  /// Distance of b from a in units of the limits, the least over all symmetries: the larger one of place and angle.
-  /// What is at least `enough` may be returned as any such value.
+  /// Distance of two poses in units of the limits: the larger one of distance / apart and angle / angle, for the
+  /// symmetry that makes it smallest. If it is at least `enough`, the result may be any value of at least `enough`.
   double distance(const Pose& a, const Pose& b, const Limits& limits,
                   double enough = std::numeric_limits<double>::infinity()) const;
-  /// Poses from which the symmetries' distance is the plain one: the least of plain distances from them is distance().
-  /// Empty where a round axis has to be turned for each pair.
+  /// The images of a pose under all symmetries: the smallest plain distance of b from one of them is distance(a, b).
+  /// Empty if there is an axis of rotational symmetry, for which the turn depends on b.
   std::vector<Pose> mapped(const Pose& a) const;
   double plain_distance(const std::vector<Pose>& mapped, const Pose& b, const Limits& limits, double enough) const;
   bool near(const Pose& a, const Pose& b, const Limits& limits) const { return distance(a, b, limits, 1.0) < 1.0; }
-  /// All places to which symmetries bring a pose, the pose itself first; round axes in steps of the limits.
+  /// All poses to which symmetries move a pose, the pose itself first; rotational symmetries in steps of the limits.
   std::vector<Pose> images(const Pose& pose, const Limits& limits) const;
 
  private:
@@ -38,8 +39,9 @@ class PoseMeasure {
   Gripper::Type type_;
 };
 
-/// Indices of poses, a coarse cover of all first, then ever finer ones until none is farther than the limits from those
-/// chosen. Within one cover, earlier poses go first. The first n of the result do not depend on `most`.
+/// Indices of chosen poses. The first ones cover all poses coarsely, later ones ever more finely, until no pose is
+/// farther than the limits from a chosen one. Within one cover, earlier poses come first. The first n indices do not
+/// depend on `most`.
 std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure& measure,
                               const PoseMeasure::Limits& limits, std::size_t most);
 

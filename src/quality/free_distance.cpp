@@ -65,10 +65,32 @@ double triangle_distance(const TrianglePoints& s, const TrianglePoints& t, const
   return beyond && best < std::numeric_limits<double>::infinity() ? 0.0 : best;
 }
 
+/// Boxes of a mesh's frame, and triangles, along a direction of the common frame.
+class Extents {
+ public:
+  Extents(const Pose& pose, const Vec3& direction)
+      : along_(pose.orientation.conjugate() * direction),
+        size_(0.5 * along_.cwiseAbs()),
+        shift_(pose.position.dot(direction)) {}
+  double lowest(const Aabb& box) const { return shift_ + along_.dot(box.center()) - size_.dot(box.size()); }
+  double highest(const Aabb& box) const { return shift_ + along_.dot(box.center()) + size_.dot(box.size()); }
+
+ private:
+  Vec3 along_, size_;
+  double shift_;
+};
+
+/// Whether s is farther along the direction than t.
+bool beyond(const TrianglePoints& s, const TrianglePoints& t, const Vec3& direction) {
+  return std::min({direction.dot(s[0]), direction.dot(s[1]), direction.dot(s[2])}) >
+         std::max({direction.dot(t[0]), direction.dot(t[1]), direction.dot(t[2])});
+}
+
 }  // namespace
 
 double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b,
-                     const Vec3& direction, double limit) {
+                     const Vec3& direction, double limit, const Vec3& guide) {
+  BIN_SCENES_ASSERT(guide.dot(direction) >= 0.0);
   if (a.mesh().empty() || b.mesh().empty()) return limit;
   // Both in a frame with z against the direction, where a box's shadow is its x and y.
   const Quat upright = Quat::FromTwoVectors(-direction, Vec3::UnitZ());
@@ -76,6 +98,10 @@ double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b,
   const Pose stand_a = stand(pose_a), stand_b = stand(pose_b);
   const BoxMotion motion_a(stand_a), motion_b(stand_b);
   const Vec3 down = -Vec3::UnitZ();
+  // What is beyond b along the guide moves away from it.
+  const bool guided = !guide.isZero();
+  const Extents along_a(pose_a, guide), along_b(pose_b, guide);
+  const Vec3 upright_guide = upright * guide;
   double best = limit;
   const auto bound = [&](const Aabb& one, const Aabb& other) {
     const bool beside = (one.lower - other.upper).cwiseMax(other.lower - one.upper).head<2>().maxCoeff() > 0.0;
@@ -83,10 +109,15 @@ double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b,
     return std::max(0.0, one.lower.z() - other.upper.z());
   };
   walk(
-      a, stand_a, b, stand_b, [&](const Aabb& one, const Aabb& other) { return bound(motion_a(one), motion_b(other)); },
+      a, stand_a, b, stand_b,
+      [&](const Aabb& one, const Aabb& other) {
+        if (guided && along_a.lowest(one) > along_b.highest(other)) return std::numeric_limits<double>::infinity();
+        return bound(motion_a(one), motion_b(other));
+      },
       [&] { return best; },
       [&](const Facet& s, const Facet& t) {
         if (!(bound(s.box, t.box) < best)) return;
+        if (guided && beyond(s.points, t.points, upright_guide)) return;
         if (edge_separates(s.points, t.points) || edge_separates(t.points, s.points)) return;
         best = std::min(best, triangle_distance(s.points, t.points, down));
       });

@@ -104,6 +104,39 @@ void add_part(bin_scenes_msgs::GetGrasps::Response& response, const PartPick& pi
   response.overlap_shares.push_back(pick.overlap.share);
   response.overlap_moves.push_back(vector_message(pick.overlap.move));
   response.overlap_passes.push_back(pick.overlap.passes);
+  for (std::size_t i = 0; i < pick.blocked_by.size(); ++i) {
+    response.blocked_ids.push_back(pick.id);
+    response.blocked_by.push_back(pick.blocked_by[i]);
+    response.blocked_areas.push_back(pick.blocked_areas.at(i));
+  }
+}
+
+void add_search(bin_scenes_msgs::GetGrasps::Response& response, int part, const PartSearch& search,
+                const Request& request) {
+  response.searched_ids.push_back(part);
+  response.searched_grippers.push_back(request.grippers[search.gripper].name);
+  response.searched_tried.push_back(static_cast<int>(search.tried));
+  response.searched_free.push_back(static_cast<int>(search.free));
+  response.searched_least_tilts.push_back(search.least_tilt);
+}
+
+/// All that does not belong to single grasps.
+void add_scene(bin_scenes_msgs::GetGrasps::Response& response, const SceneGrasps& all, const Request& request) {
+  response.removal_order.assign(all.removal_order.begin(), all.removal_order.end());
+  for (const PartPick& pick : all.parts) {
+    add_part(response, pick);
+    for (const PartSearch& search : pick.searches) add_search(response, pick.id, search, request);
+  }
+  for (std::size_t set = 0; set < all.held_sets.size(); ++set)
+    for (const int id : all.held_sets[set].ids) {
+      response.held_ids.push_back(id);
+      response.held_sets.push_back(static_cast<int>(set));
+    }
+  for (const SceneGrasps::Found& found : all.found) {
+    response.model_lines.push_back(static_cast<int>(found.line));
+    response.model_grippers.push_back(request.grippers[found.gripper].name);
+    response.coverages.push_back(found.coverage);
+  }
 }
 
 }  // namespace
@@ -146,8 +179,7 @@ void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<Scen
   }
   for_each_column(GraspColumns(), [&](const char* name, double) { response.columns.emplace_back(name); });
   response.flanges.header = response.poses.header;
-  response.removal_order.assign(all.removal_order.begin(), all.removal_order.end());
-  for (const PartPick& pick : all.parts) add_part(response, pick);
+  add_scene(response, all, request);
 }
 
 void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen,

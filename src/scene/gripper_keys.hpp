@@ -13,18 +13,23 @@ inline Names<Gripper::Type> names(Gripper::Type) {
 template <class Visitor>
 void visit(Visitor& v, ScoreWeights& w) {
   v.field({"bias", "", "added to the weighted columns; larger values raise all scores"}, w.bias);
-  v.field({"holding", "", "of ln(safety factor against slipping and turning), limited to -ln 6 and ln 6"}, w.holding);
-  v.field({"sliding", "", "of ln(safety factor against sliding alone, whatever the part turns), limited likewise"},
+  v.field({"holding", "", "weight of ln(safety factor against slipping and turning); factors are limited to 1/6 and 6"},
+          w.holding);
+  v.field({"sliding", "",
+           "weight of ln(safety factor against sliding alone, even if the part turns); factors are limited likewise"},
           w.sliding);
-  v.field({"antipodal", "", "of the share of friction, or of the lip, that the shape of the contact leaves"},
+  v.field({"antipodal", "", "weight of the share of friction, or of the lip, that the shape of the contact leaves"},
           w.antipodal);
-  v.field({"moment", "", "of 1 - sqrt(moment of the weight about the contact / moment that is held)"}, w.moment);
-  v.field({"overlap", "", "of the share of the pads that is in contact; of the margin around a cup's ring"}, w.overlap);
-  v.field({"upright", "", "of 1 - angle of approach and gravity / 90 degrees"}, w.upright);
-  v.field({"clearance", "", "of the room around the gripper: 1 where four times the clearance is free"}, w.clearance);
-  v.field({"closing", "", "of 1 - width / stroke"}, w.closing);
-  v.field({"seen", "", "of the share of the contact that the best camera sees"}, w.seen);
-  v.field({"measured", "", "of the share of the contact that the best camera measured"}, w.measured);
+  v.field({"moment", "", "weight of 1 - sqrt(moment of the weight about the contact / moment that the grasp can hold)"},
+          w.moment);
+  v.field({"overlap", "", "weight of the share of the pads that is in contact, or of the margin around a cup's ring"},
+          w.overlap);
+  v.field({"upright", "", "weight of 1 - angle of approach and gravity / 90 degrees"}, w.upright);
+  v.field({"clearance", "", "weight of the room around the gripper, which is 1 if four times the clearance is free"},
+          w.clearance);
+  v.field({"closing", "", "weight of 1 - distance of the fingers / stroke"}, w.closing);
+  v.field({"seen", "", "weight of the share of the contact that the best camera sees"}, w.seen);
+  v.field({"measured", "", "weight of the share of the contact that the best camera measured"}, w.measured);
 }
 
 /// Names and lengths.
@@ -39,14 +44,16 @@ void visit_shape(Visitor& v, Gripper& g) {
            "default radius / 2",
            above(0.0)},
           g.stroke);
-  v.field({"opening", "m",
-           "parallel: by which each finger is away from the part before it closes, as far as the stroke permits",
-           at_least(0.0)},
-          g.opening);
-  v.field({"finger_width", "m", "parallel: of finger and pad, across closing and approach", above(0.0)},
+  v.field(
+      {"opening", "m", "parallel: distance of each finger from the part before it closes, as far as the stroke permits",
+       at_least(0.0)},
+      g.opening);
+  v.field({"finger_width", "m", "parallel: width of finger and pad, perpendicular to closing and approach", above(0.0)},
           g.finger_width);
-  v.field({"finger_depth", "m", "from the palm to finger tips or ring", above(0.0)}, g.finger_depth);
-  v.field({"finger_thickness", "m", "parallel: along closing", above(0.0)}, g.finger_thickness);
+  v.field({"finger_depth", "m", "distance from the palm to the finger tips or to the ring", above(0.0)},
+          g.finger_depth);
+  v.field({"finger_thickness", "m", "parallel: thickness of a finger along the closing direction", above(0.0)},
+          g.finger_thickness);
   v.field(
       {"finger_mesh", "",
        "parallel: mesh file of the finger at +x, in the gripper's frame with closed pads: its pad lies in the plane "
@@ -55,36 +62,42 @@ void visit_shape(Visitor& v, Gripper& g) {
        "describe its pad, finger_thickness the distance of its outer pad",
        anything, !g.finger_mesh.empty()},
       g.finger_mesh);
-  v.field({"finger_mesh_scale", "m", "per unit of finger_mesh; 0.001: mm", above(0.0, 1e3), !g.finger_mesh.empty()},
+  v.field({"finger_mesh_scale", "m", "length of one unit of finger_mesh; 0.001: the mesh is in mm", above(0.0, 1e3),
+           !g.finger_mesh.empty()},
           g.finger_mesh_scale);
-  v.field({"pad_length", "m", "parallel: of the pad, from the tip towards the palm", above(0.0)}, g.pad_length);
-  v.field({"pad_give", "m", "parallel: by which the pad yields: what lies no deeper is in contact", above(0.0)},
+  v.field({"pad_length", "m", "parallel: length of the pad, from the tip towards the palm", above(0.0)}, g.pad_length);
+  v.field({"pad_give", "m", "parallel: the pad yields by this depth; all of the surface within it is in contact",
+           above(0.0)},
           g.pad_give);
-  v.field({"radius", "m", "suction: of the ring", above(0.0)}, g.radius);
-  v.field({"lip", "m", "suction: largest gap that the lip closes", above(0.0)}, g.lip);
-  v.field({"stiffness", "N/m",
-           "suction: of the lip against being pressed into its gap; reduces the force of the vacuum", at_least(0.0)},
+  v.field({"radius", "m", "suction: radius of the ring", above(0.0)}, g.radius);
+  v.field({"lip", "m", "suction: largest gap that the lip can close", above(0.0)}, g.lip);
+  v.field({"stiffness", "N/m", "suction: stiffness of the lip; pressed into a gap, it reduces the force of the vacuum",
+           at_least(0.0)},
           g.stiffness);
-  v.field({"palm", "m", "box behind the fingers: along closing, across, along approach", above(0.0, 1e4)}, g.palm);
+  v.field({"palm", "m", "box behind the fingers: length along closing, perpendicular to both, along approach",
+           above(0.0, 1e4)},
+          g.palm);
 }
 
 template <class Visitor>
 void visit(Visitor& v, Gripper& g) {
   visit_shape(v, g);
-  v.field({"force", "N", "of each finger, or of the vacuum", above(0.0, 1e5)}, g.force);
-  v.field({"friction", "", "of pad or ring; the coefficient of a pair is sqrt(gripper * part)", above(0.0, 10.0)},
+  v.field({"force", "N", "force of each finger, or of the vacuum", above(0.0, 1e5)}, g.force);
+  v.field({"friction", "", "coefficient of pad or ring; the coefficient of a pair is sqrt(gripper * part)",
+           above(0.0, 10.0)},
           g.friction);
-  v.field({"clearance", "m", "to everything but the part itself", at_least(0.0)}, g.clearance);
+  v.field({"clearance", "m", "smallest distance of the gripper from other parts and the bin", at_least(0.0)},
+          g.clearance);
   v.field({"finger_clearance", "m",
-           "parallel: least gap between each opened finger and the part; a part is at most stroke - 2 "
+           "parallel: smallest gap between each opened finger and the part; a part can be at most stroke - 2 * "
            "finger_clearance wide",
            at_least(0.0)},
           g.finger_clearance);
-  v.field({"margin", "m", "suction: least distance of the ring from edges and holes", at_least(0.0)}, g.margin);
+  v.field({"margin", "m", "suction: smallest distance of the ring from edges and holes", at_least(0.0)}, g.margin);
   v.field(
       {"inner", "",
-       "parallel: true: also grasps from within, as of rings and tubes, by fingers that expand; their outer faces are "
-       "pads, too"},
+       "parallel: true: also grasps from within, for example of rings and tubes, by fingers that expand; their outer "
+       "faces are pads as well"},
       g.inner);
   v.field(
       {"tool_rotation", "rad",
@@ -92,18 +105,20 @@ void visit(Visitor& v, Gripper& g) {
        "the palm has the flange's axes",
        at_least(-7.0, 7.0)},
       g.tool_rotation);
-  v.field({"acceleration", "m/s2", "of the lift, also when it is proved; adds to gravity", at_least(0.0, 100.0)},
-          g.acceleration);
-  v.field({"tilt", "rad", "largest angle of approach and gravity", at_least(0.0, 3.2)}, g.tilt);
+  v.field(
+      {"acceleration", "m/s2", "acceleration of the lift, also in proofs; it adds to gravity", at_least(0.0, 100.0)},
+      g.acceleration);
+  v.field({"tilt", "rad", "largest angle between approach and gravity", at_least(0.0, 3.2)}, g.tilt);
   v.field({"most", "", "grasps of a part that every scene tries; a larger value adds grasps and removes none",
            at_least(1.0, 100000.0)},
           g.most);
   v.field({"free_wanted", "",
-           "of each uncovered part the scene itself is searched, from vertical approaches outwards, until so many "
-           "free grasps are found; 0: no search",
+           "number of free grasps after which the search in the scene around a part that can be lifted ends; it tries "
+           "vertical approaches first; 0: no search",
            at_least(0.0, 10000.0)},
           g.free_wanted);
-  v.field({"tries", "", "poses after which that search ends in any case; more = slower, fewer parts without a grasp",
+  v.field({"tries", "",
+           "number of poses after which that search ends in any case; more = slower, fewer parts without a grasp",
            at_least(1.0, 1e6)},
           g.tries);
   v.section({"score", "", "weights of the columns of a grasp in its score"}, g.score);

@@ -270,6 +270,26 @@ TEST(SuctionGrasps, SphereClosesTheRingAllAround) {
   EXPECT_NEAR(found.grasps[0].pose.position.norm(), std::sqrt(radius * radius - 1e-4), 1e-4);
 }
 
+TEST(SuctionGrasps, RingsKeepTheirMarginToEdgesAndHoles) {
+  constexpr double outer = 0.04, hole = 0.012, exact = 3e-5;
+  const Mesh mesh = test::ring(outer, hole, 0.005, 64).mesh;
+  for (const double margin : {0.001, 0.003}) {
+    Gripper gripper = cup();
+    gripper.margin = margin;
+    const PartGrasps found = grasps_of(mesh, gripper);
+    double least = outer;
+    for (const PartGrasps::Placed& placed : found.placed) {
+      ASSERT_GT(std::abs(approach(placed.pose).z()), 0.99);
+      const double from_axis = placed.pose.position.head<2>().norm();
+      const double left = std::min(from_axis - hole, outer * std::cos(M_PI / 64) - from_axis) - gripper.radius;
+      EXPECT_GT(left, margin - exact);
+      EXPECT_LT(found.grasps[placed.of].margin, left + exact);
+      least = std::min(least, left);
+    }
+    EXPECT_LT(least, margin + 0.001);  // the margin is used up
+  }
+}
+
 TEST(SuctionGrasps, AHoleUnderTheCupLeaks) {
   // The wall of the ring is 16 mm wide: a cup of 20 mm hangs over, one of 10 mm does not.
   const Mesh mesh = test::ring(0.026, 0.010, 0.01, 48).mesh;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <tuple>
 
 namespace bin_scenes {
 namespace {
@@ -111,6 +112,21 @@ TEST(SceneSearch, LargeFingersReachWhatLiesOnTheFloor) {
   search_of(test::bolt_mesh(), 0.0065, Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY())));
   search_of(test::ring(0.02, 0.012, 0.008, 32).mesh, 0.004, Quat::Identity());
   search_of(test::hook_mesh(), 0.003, Quat::Identity());
+}
+
+TEST(SceneSearch, TheBestGraspOfAPartComesFirst) {
+  Stage stage({slim(), test::cup()});
+  const std::size_t cube = stage.add(test::box_mesh(Vec3::Constant(0.04)));
+  stage.put(cube, Vec3(-0.1, 0, 0.02));
+  stage.put(cube, Vec3(0.1, 0, 0.02));
+  const std::vector<SceneGrasp> grasps = stage.find().grasps;
+  ASSERT_GT(grasps.size(), 50u);
+  for (std::size_t i = 1; i < grasps.size(); ++i) {
+    const SceneGrasp &before = grasps[i - 1], &after = grasps[i];
+    const auto order = [](const SceneGrasp& g) { return std::make_tuple(g.part, g.gripper, -g.score); };
+    EXPECT_LE(order(before), order(after)) << i;
+  }
+  EXPECT_TRUE(grasps.front().free());
 }
 
 TEST(SceneSearch, EndsAfterItsTries) {

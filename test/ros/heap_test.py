@@ -77,6 +77,7 @@ class HeapTest(NodeTestCase):
         every = self.doors.grasps(ids=[told.parts[0]], all=True)
         self.assertEqual(set(every.parts), {told.parts[0]})
         self.assertTrue(all(free == (reason == "") for free, reason in zip(every.free, every.reasons)))
+        self.check_fields_of_parts(every, grippers=["cup_10mm", "two"])
         # What it tells can be done: the part leaves, and its grasps with it.
         self.picked([told.parts[0]], lift_distance=0.1)
         refused = self.doors.grasps(ids=[told.parts[0]])
@@ -84,6 +85,25 @@ class HeapTest(NodeTestCase):
         self.assertIn("there is no part %d" % told.parts[0], refused.message)
         self.doors.scene()
         self.assertIn("no grippers", self.doors.grasps().message)
+
+    def check_fields_of_parts(self, told, grippers):
+        """What grasps.json states of parts and models is in the answer."""
+        ids = sorted(told.part_ids)
+        self.assertEqual(sorted(told.removal_order), ids)
+        self.assertEqual(len(told.blocked_ids), len(told.blocked_by))
+        self.assertEqual(len(told.blocked_ids), len(told.blocked_areas))
+        slight = {part for part, is_slight in zip(told.part_ids, told.slight) if is_slight}
+        lifted = [part for part in ids if part not in set(told.blocked_ids) - slight]
+        self.assertEqual(sorted(zip(told.searched_ids, told.searched_grippers)),
+                         [(part, gripper) for part in lifted for gripper in grippers])
+        for tried, free, tilt in zip(told.searched_tried, told.searched_free, told.searched_least_tilts):
+            self.assertLessEqual(free, tried)
+            self.assertEqual(tilt > 10.0, tried == 0)
+        self.assertEqual(len(told.held_ids), len(told.held_sets))
+        self.assertTrue(set(told.held_ids) <= set(told.blocked_ids))
+        self.assertEqual(set(told.model_grippers), set(grippers))
+        self.assertTrue(all(0.0 <= coverage < 1.0 for coverage in told.coverages))
+        self.assertEqual(len(told.coverages), len(told.model_lines))
 
     def test_a_part_is_picked_by_a_grasp(self):
         grippers = ["grippers=[{name: two, stroke: 0.06}, cup_10mm]", "solver.type=sphere"]

@@ -1,4 +1,4 @@
-/// What can be picked of a finished scene: free grasps of each part, what hinders its lift, and an order of removal.
+/// Grasps in a finished scene: the free grasps of each part, the parts that obstruct its lift, and an order of removal.
 #pragma once
 
 #include "bin_scenes/grasp/part_grasps.hpp"
@@ -15,22 +15,23 @@
 
 namespace bin_scenes {
 
-/// What the score of a grasp is made from. Each is 0..1, the larger the better, but for the factors of safety.
+/// The quantities from which the score of a grasp is computed; larger is better. Columns other than the safety factors
+/// are in 0..1.
 struct GraspColumns {
-  double safety = 0.0;     ///< factor by which the burden of the lift could grow before the part slips or turns
-  double sliding = 0.0;    ///< the same before the part slides out, whatever it turns in the gripper
-  double antipodal = 0.0;  ///< share of friction that the slope of the contacts leaves; of a lip that its gap leaves
-  double moment = 0.0;     ///< 1 - sqrt(moment of the weight about the contact / moment that is held)
+  double safety = 0.0;     ///< factor by which the load of the lift could grow before the part slips or turns
+  double sliding = 0.0;    ///< factor by which it could grow before the part slides out, even if it turns before
+  double antipodal = 0.0;  ///< fingers: 1 - friction needed at the contacts / friction; cup: 1 - gap / lip
+  double moment = 0.0;     ///< 1 - sqrt(moment of the weight about the contact / moment that the grasp can hold)
   double overlap = 0.0;    ///< fingers: 1 - exp(-(share of the pad in contact) / 0.05); cup: margin / (radius / 2)
   double upright = 0.0;    ///< 1 - tilt / 90 degrees
-  double clearance =
-      0.0;  ///< of free grasps: 0.5 where twice the clearance is free beside the gripper, 1 where four times
+  /// Free grasps only: 0.5 if twice the clearance is free beside the gripper, 1 if four times the clearance is free.
+  double clearance = 0.0;
   double closing = 0.0;   ///< fingers: 1 - width / stroke; cup: 1
   double seen = 1.0;      ///< share of the contact that the best camera sees; 1 without images
   double measured = 1.0;  ///< share of the contact that the best camera measured; 1 without images
 };
 
-/// `use(name, value)` for each column.
+/// Calls `use(name, value)` for each column.
 template <class Use>
 void for_each_column(const GraspColumns& c, const Use& use) {
   use("safety", c.safety);
@@ -48,102 +49,104 @@ void for_each_column(const GraspColumns& c, const Use& use) {
 struct SceneGrasp {
   int part = 0;             ///< id
   std::size_t gripper = 0;  ///< index into Request::grippers
-  /// Index into PartGrasps::grasps: equal for grasps that symmetries make alike. None: fingers, found in the scene.
+  /// Index into PartGrasps::grasps; grasps that are equal by symmetry share it. None: found by the search in the scene.
   std::optional<std::size_t> grasp;
   Pose pose;           ///< of the gripper in the bin frame
   double width = 0.0;  ///< m, parallel
   bool inner = false;  ///< parallel: the fingers press outwards, from within
-  double force = 0.0;  ///< N: of each finger; of the vacuum, less what the lip takes in its gap
-  double score = 0.0;  ///< 0..1: of the columns, by the gripper's weights; calibrated as the chance of the lift
+  double force = 0.0;  ///< N: of each finger; of the vacuum after the loss by the gap under the lip
+  double score = 0.0;  ///< 0..1: estimated chance that the lift succeeds, from the columns and the gripper's weights
   GraspColumns columns;
   double friction = 0.0;  ///< smallest coefficient with which it lifts the part out; infinite: none suffices
-  /// Why it is not free. Sweeps are those of the gripper grown by its clearance; of what it touches, one is named.
+  /// Why the grasp is not free. Collisions are those of the gripper, grown by its clearance on all sides.
   enum class Obstacle {
     none,      ///< it is free
-    blocked,   ///< others hinder the part's lift: PartPick::blocked_by
-    slips,     ///< it cannot hold what the part, its load and its neighbours' friction weigh
-    approach,  ///< while it moves in from outside the bin
-    closing,   ///< as its fingers close
-    lift       ///< as it goes up with the part
+    blocked,   ///< other parts obstruct the lift of the part: PartPick::blocked_by
+    slips,     ///< it cannot hold weight, load, inertia and the friction of the neighbours
+    approach,  ///< the gripper collides while it moves in from outside the bin
+    closing,   ///< the fingers collide while they close
+    lift       ///< the gripper collides while it moves out with the part
   } obstacle = Obstacle::none;
-  int other = -1;  ///< approach, closing, lift: id of the part that it meets, -1: the bin
+  int other = -1;  ///< approach, closing, lift: id of the first part that it collides with, -1: the bin
 
   Aperture aperture() const { return {width, inner}; }
 
-  /// By sensor, in the order of the images: shares of the contact that the camera sees, and that it measured.
+  /// For each image: the shares of the contact points that the camera sees, and for which it measured a depth.
   std::vector<double> visible, measured;
-  std::optional<LiftProof> proof;  ///< of those that Request::prove chose
+  std::optional<LiftProof> proof;  ///< result of a simulated lift, for the grasps that Request::prove chose
   bool free() const { return obstacle == Obstacle::none; }
 };
 
-/// A scene's own search for grasps of a part.
+/// Result of the search for grasps of a part in the scene (Gripper::free_wanted).
 struct PartSearch {
-  std::size_t gripper = 0;  ///< index into Request::grippers
-  std::size_t tried = 0;    ///< poses
-  std::size_t free = 0;
-  double least_tilt = std::numeric_limits<double>::infinity();  ///< rad: of the approaches tried
+  std::size_t gripper = 0;                                      ///< index into Request::grippers
+  std::size_t tried = 0;                                        ///< poses tried
+  std::size_t free = 0;                                         ///< free grasps found
+  double least_tilt = std::numeric_limits<double>::infinity();  ///< rad: smallest tilt of an approach that was tried
 };
 
-/// A part that could be picked.
+/// What a lift of one part has to carry and to pass.
 struct PartPick {
   int id = 0;
-  double load = 0.0;            ///< N: what others press down on it; 0 also if the solver reports no forces
-  double pull = 0.0;            ///< N to lift it out: its weight, the load, and friction of contacts at its sides
-  Vec3 lift = Vec3::Zero();     ///< m, bin frame: the displacement by which it leaves all others below it; straight up
-                                ///< if that is free or nothing is, else the free direction nearest to it that was found
-  std::vector<int> blocked_by;  ///< ids that obstruct its lift or lie on it, ascending; -1: a bin's mesh
-  /// Whether those only cover it so little that its grasps are looked for all the same: Request::slight_overlap.
+  double load = 0.0;            ///< N: force of other parts downwards; 0 also if the solver reports no forces
+  double pull = 0.0;            ///< N to lift it out: weight, load, and friction of the contacts at its sides
+  Vec3 lift = Vec3::Zero();     ///< m, bin frame: displacement that moves it above all other parts. Straight up, unless
+                                ///< only another direction within Request::lift_cone is free
+  std::vector<int> blocked_by;  ///< ids of parts that obstruct the lift or lie on the part, ascending; -1: a bin's mesh
+  /// Whether these parts cover so little of it (Request::slight_overlap) that its grasps are tried in spite of them.
   bool slight = false;
   bool lifts() const { return blocked_by.empty() || slight; }
-  /// By how much those of `blocked_by` that are parts cover it, seen along the lift.
+  /// By how much the parts in `blocked_by` cover it, in a projection along gravity.
   struct Overlap {
     double area = 0.0;         ///< m2
-    double share = 0.0;        ///< of the part's footprint
-    Vec3 move = Vec3::Zero();  ///< m across the lift: the shortest that was found after which nothing is above it
-    bool passes = false;       ///< whether the part meets nothing on this move but what it lies on or grazes
+    double share = 0.0;        ///< area / footprint of the part
+    Vec3 move = Vec3::Zero();  ///< m, horizontal: the shortest move found after which these parts do not cover it
+    bool passes = false;       ///< whether the part meets no other part on this move; it may slide on its support
   } overlap;
-  std::vector<double> blocked_areas;  ///< m2, of each one of blocked_by alone
-  int depth = -1;          ///< how many rounds of picking precede it; -1: never, as of what a fixed part covers
-  std::size_t tilted = 0;  ///< grasps left out because their approach is tilted too far
-  std::vector<PartSearch> searches;  ///< by gripper, of parts that nothing blocks
+  std::vector<double> blocked_areas;  ///< m2 covered by each part of blocked_by
+  int depth = -1;          ///< number of rounds of picking before it can be lifted; -1: never, below something fixed
+  std::size_t tilted = 0;  ///< grasps left out because their approach is tilted by more than Gripper::tilt
+  std::vector<PartSearch> searches;  ///< one for each gripper, if the part can be lifted
 };
 
 struct SceneGrasps {
-  std::vector<SceneGrasp> grasps;  ///< by part, then gripper; those within the grippers' tilt
+  std::vector<SceneGrasp> grasps;  ///< by part, then gripper, then score, the best first
   std::vector<PartPick> parts;     ///< in the order of the scene
-  /// All ids, each after all that block it but for sets of parts that hold each other; the highest first. Parts with
-  /// depth -1 come last.
+  /// The ids of all parts. Each part comes after the parts that block it, except within a set of `held_sets`. Of the
+  /// parts that are free at the same time, the highest one comes first; parts with depth -1 come last.
   std::vector<int> removal_order;
-  /// Parts that hold each other, and therefore leave together.
+  /// Parts that block each other in a circle, and that therefore have to be lifted together.
   struct HeldSet {
     std::vector<int> ids;    ///< in the order of removal
-    int part = -1, by = -1;  ///< the one that is covered the least by another one of the set
-    double overlap = 0.0;    ///< m2
+    int part = -1, by = -1;  ///< the pair with the smallest overlap: `part` is covered by `by`
+    double overlap = 0.0;    ///< m2, of that pair
   };
   std::vector<HeldSet> held_sets;
-  /// Of each part line and gripper.
+  /// The search for grasps of a part alone, for each part line and gripper.
   struct Found {
-    std::size_t line = 0, gripper = 0;
-    std::size_t grasps = 0;  ///< that no symmetry makes alike
-    std::size_t placed = 0;  ///< of a part that scenes try
-    double coverage = 0.0;
+    std::size_t line = 0, gripper = 0;  ///< indices into Request::parts and Request::grippers
+    std::size_t grasps = 0;             ///< number of PartGrasps::grasps
+    std::size_t placed = 0;             ///< number of PartGrasps::placed
+    double coverage = 0.0;              ///< PartGrasps::coverage
     GraspCounts counts;
   };
   std::vector<Found> found;
 };
 
 const char* name_of(SceneGrasp::Obstacle obstacle);
-/// "meets part 7 on its approach"; empty: free.
+/// Why the grasp is not free, as text: "gripper meets part 7: approach"; empty if it is free.
 std::string reason_of(const SceneGrasp& grasp, const PartPick& part);
-/// Remarks on parts for which a gripper has no grasp at all: why, and how many poses each.
+/// Flags for grippers that have no grasp of a part at all, with the reasons, and for palms that do not fit into the
+/// bin.
 std::vector<Flag> flags_of(const SceneGrasps& grasps, const Request& request);
 
-/// Keeps the grasps of parts between scenes. Thread-safe.
+/// Finds grasps in scenes, and keeps the grasps of the parts alone from one scene to the next. Thread-safe.
 class Grasper {
  public:
   Grasper();
   ~Grasper();
-  /// For all grippers of the request and all parts that are there and not fixed. Lifts go against gravity.
+  /// Grasps by all grippers of the request of all parts that are in the scene and not fixed.
+  /// @param images  of the scene, by sensor; none: nothing is reported as seen or measured
   SceneGrasps find(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images) const;
 
  private:

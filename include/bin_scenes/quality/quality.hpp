@@ -27,9 +27,11 @@ Penetration penetration(const MeshQuery& a, const Pose& pose_a, const MeshQuery&
 Penetration bin_penetration(const MeshQuery& part, const Pose& pose, const Bin& bin, const MeshQuery* bin_mesh);
 
 /// Returns the distance (m) that a can move along `direction` (unit vector, bin frame) before it touches b, at most
-/// `limit`. It is 0 if their surfaces already intersect on that path.
+/// `limit`. It is 0 if their surfaces already intersect on that path. `guide` does not affect the result, but makes the
+/// search faster if most of a is farther along it than b: it is the normal of a plane that nearly separates them. Its
+/// angle to `direction` must be at most 90 degrees; a zero vector means that there is no guide.
 double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b,
-                     const Vec3& direction, double limit);
+                     const Vec3& direction, double limit, const Vec3& guide = Vec3::Zero());
 
 /// Fills report.penetration, report.gap, accepted and reasons of the scene from its poses and flags.
 ///

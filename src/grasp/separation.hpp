@@ -1,0 +1,30 @@
+/// Planes between two parts: a quick proof that the one does not obstruct the other.
+#pragma once
+
+#include "bin_scenes/part/mesh_query.hpp"
+
+#include <limits>
+
+namespace bin_scenes {
+
+/// A mesh at a pose in the bin frame.
+struct PlacedMesh {
+  const MeshQuery& mesh;
+  const Pose& pose;
+};
+
+/// The vertex of the mesh that is farthest along a direction; bin frame. The mesh must have triangles.
+Vec3 farthest_vertex(const PlacedMesh& mesh, const Vec3& direction);
+
+/// A plane that has one body on the side of its normal, and another one on its other side.
+struct SeparatingPlane {
+  Vec3 normal = Vec3::Zero();                             ///< unit, bin frame; zero: none was found
+  double gap = -std::numeric_limits<double>::infinity();  ///< m between both; negative: they reach beyond the plane
+};
+
+/// The plane with the largest gap that a short search finds between `moving`, all along the displacement (m), and
+/// `other`. It ends at a gap of -tolerance (m) or more. There may be better planes.
+SeparatingPlane separating_plane(const PlacedMesh& moving, const Vec3& displacement, const PlacedMesh& other,
+                                 double tolerance);
+
+}  // namespace bin_scenes
