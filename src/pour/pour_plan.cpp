@@ -1,5 +1,7 @@
 #include "pour/pour_plan.hpp"
 
+#include "pour/squeezed_parts.hpp"
+
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/pour/pour.hpp"
@@ -77,6 +79,7 @@ PourPlan::PourPlan(const LoadedRequest& loaded)
   BIN_SCENES_ASSERT(line_of.size() == world.bodies.size() && covers.size() == r.parts.size());
   if (world.bin_model) bin_cover = cover(transformed(world.bin_model->mesh(), world.bin.pose), 40);
   entry_height = opening.upper.z() + 2.0 * r.pour.drop_height + 2.0 * largest_part;
+  refuse_squeezed_parts(*this);
 }
 
 }  // namespace bin_scenes

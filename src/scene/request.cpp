@@ -56,9 +56,9 @@ void apply(SolverSettings::Preset preset, Request& request) {
   sphere.step_fall = 7.5e-3;
   sphere.sub_steps = 1;
   sphere.recycle = 5e-3;
-  sphere.coarse_samples = 60;
+  sphere.coarse_samples = 100;
   sphere.fine_samples = 100;
-  sphere.field_cell = 0.02;
+  sphere.field_cell = 0.01;
 }
 
 namespace {

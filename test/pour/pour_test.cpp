@@ -4,6 +4,7 @@
 #include "bin_scenes/pour/rest_watch.hpp"
 #include "bin_scenes/pour/spawn.hpp"
 #include "bin_scenes/solver/bullet_solver.hpp"
+#include "pour/pour_plan.hpp"
 #include "pour/small_boxes.hpp"
 #include "solver/fixture.hpp"
 
@@ -36,6 +37,46 @@ TEST(Pour, PartsComeToRestInsideTheBin) {
       EXPECT_LT(std::abs(x.y()), 0.075 + 2e-4);
     }
   }
+}
+
+// It left at hundreds of times its width in a second, and the scene was accepted.
+TEST(Pour, AHeavyPartOnALightOneWithoutFrictionIsRefused) {
+  struct Load {
+    double edge, ratio, friction = 0.0, aside = 0.0, above = 0.0;
+    SolverType solver = SolverType::sphere;
+  };
+  const auto refused = [](const Load& load) {
+    const PartModelPtr cube = box(Vec3::Constant(load.edge));
+    Request request = request_of(1);
+    request.bin.kind = Bin::Kind::floor;
+    request.pour.pattern = Pour::Pattern::given;
+    request.solver.type = load.solver;
+    request.parts.push_back(request.parts[0]);
+    const double height[] = {0.5, 1.5 + load.above};
+    for (std::size_t l = 0; l < 2; ++l) {
+      PartLine& line = request.parts[l];
+      line.friction = load.friction;
+      line.mass = l == 0 ? 0.1 : 0.1 * load.ratio;
+      line.poses = {{load.edge * Vec3(l * load.aside, 0, height[l]), Quat::Identity()}};
+    }
+    try {
+      const PourPlan plan({request, {cube, cube}});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return true;
+    }
+    return false;
+  };
+  for (const double edge : {0.005, 0.05, 0.3}) {
+    EXPECT_TRUE(refused({edge, 1000.0})) << edge;
+    EXPECT_FALSE(refused({edge, 1000.0, 0.5})) << edge << ": friction holds it";
+    EXPECT_FALSE(refused({edge, 1000.0, 0.0, 1.1})) << edge << ": beside it";
+    EXPECT_FALSE(refused({edge, 1000.0, 0.0, 0.0, 1.0})) << edge << ": above it";
+    EXPECT_FALSE(refused({edge, 1000.0, 0.0, 0.0, 0.0, SolverType::bullet})) << edge;
+    EXPECT_FALSE(refused({edge, 3.0})) << edge << ": it stands";
+  }
+  EXPECT_FALSE(refused({0.3, 100.0})) << "it stands";
+  EXPECT_TRUE(refused({0.05, 30.0})) << "it leaves within a second";
 }
 
 TEST(Pour, RestMeansRest) {
