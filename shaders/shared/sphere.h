@@ -177,13 +177,14 @@ struct SphereProgress {
   // When it is read back, the states follow it, so that its size is a multiple of 16 bytes.
 };
 
-// The deepest contact of a world since the host last asked for it: Solver::take_worst_contact().
+// The deepest contact of a world since the host last asked for it, and impacts: Solver::take_worst_contact().
 struct SphereWorst {
   uint a, b;        // bodies of the world; b may be SPHERE_GROUND
   float depth;      // m
   float relative;   // depth / diagonal of the smaller part; 0: no contact
   float ago;        // s since the start of the step with that contact
-  uint unused0, unused1, unused2;
+  uint unresolved;  // sub-steps whose sweeps ended before an impact was solved
+  uint unused0, unused1;
 };
 
 // The tasks of a world: steps to simulate, and what to observe (WatchAsk and WatchRules in solver/world_watch.hpp).
