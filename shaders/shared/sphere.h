@@ -39,6 +39,7 @@
 #define BIND_WATCHED 36
 #define BIND_AUDITS 37
 #define BIND_SEEN 38
+#define BIND_TOUCHES 39
 
 #define SPHERE_JOB_GROUP 64         // invocations of a group that decides about pairs, one pair each
 #ifndef SPHERE_PAIR_GROUP
@@ -177,13 +178,14 @@ struct SphereProgress {
   // When it is read back, the states follow it, so that its size is a multiple of 16 bytes.
 };
 
-// The deepest contact of a world since the host last asked for it: Solver::take_worst_contact().
+// The deepest contact of a world since the host last asked for it, and impacts: Solver::take_worst_contact().
 struct SphereWorst {
   uint a, b;        // bodies of the world; b may be SPHERE_GROUND
   float depth;      // m
   float relative;   // depth / diagonal of the smaller part; 0: no contact
   float ago;        // s since the start of the step with that contact
-  uint unused0, unused1, unused2;
+  uint unresolved;  // sub-steps whose sweeps ended before an impact was solved
+  uint unused0, unused1;
 };
 
 // The tasks of a world: steps to simulate, and what to observe (WatchAsk and WatchRules in solver/world_watch.hpp).
@@ -346,6 +348,16 @@ struct SphereSample {
   uint feature;      // SPHERE_SIDE_B: it belongs to b
 };
 
+// Where such a sample, or its edge, is deepest.
+struct SphereTouch {
+  uint job;
+  uint feature;
+  float distance;    // m
+  uint unused;
+  vec4 point;        // frame of the field
+  vec4 gradient;
+};
+
 struct SphereCandidate {
   vec3 on_a;         // m, point on the surface of a, in the frame of a
   float separation;  // m
@@ -359,8 +371,8 @@ struct SphereCandidate {
 
 struct SphereStatus {  // stored before the list of jobs
   uint jobs, samples, candidates;  // counts; those of samples and candidates may exceed the capacity
-  uint next_job, next_choice, unused0, unused1, unused2;
-  uvec4 groups, sample_groups;  // arguments of indirect dispatches over jobs and over samples
+  uint next_job, next_choice, touches, unused0, unused1;
+  uvec4 groups, sample_groups, touch_groups;  // arguments of indirect dispatches over jobs, samples and touches
 };
 
 GPU_STRUCTS_END
@@ -376,9 +388,9 @@ static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof
 static_assert(sizeof(SphereNode) == 16 && sizeof(SphereBox) == 32, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
-static_assert(sizeof(SphereSample) == 8 && sizeof(SphereJob) == 64, "std430");
+static_assert(sizeof(SphereSample) == 8 && sizeof(SphereTouch) == 48 && sizeof(SphereJob) == 64, "std430");
 static_assert(sizeof(SphereOrdered) == 32, "std430");
-static_assert(sizeof(SphereStatus) == 64, "std430");
+static_assert(sizeof(SphereStatus) == 80, "std430");
 }  // namespace bin_scenes::gpu
 #endif
 #endif

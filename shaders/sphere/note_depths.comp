@@ -73,5 +73,6 @@ void main() {
   uint a = pair >> 16, b = pair & 0xffffu;
   bool on_ground = b == 0xffffu;
   float depth = relative * diagonal_of(world.bodies.x + a, on_ground ? SPHERE_GROUND : world.bodies.x + b);
-  worst[w] = SphereWorst(a, on_ground ? SPHERE_GROUND : b, depth, relative, 0.0, 0u, 0u, 0u);
+  worst[w] = SphereWorst(a, on_ground ? SPHERE_GROUND : b, depth, relative, 0.0, worst[w].unresolved, 0u,
+                         0u);
 }

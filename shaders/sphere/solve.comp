@@ -18,6 +18,7 @@ layout(std430, binding = BIND_COLORS) readonly buffer Colors { uint color_starts
 layout(std430, binding = BIND_ORDER) buffer Order { SphereOrdered order[]; };
 layout(std430, binding = BIND_ROWS) restrict buffer Rows { vec4 rows[]; };
 layout(std430, binding = BIND_IMPULSES) restrict buffer Impulses { vec2 impulses[]; };
+layout(std430, binding = BIND_WORST) buffer Worst { SphereWorst worst[]; };
 
 // Of bodies, and behind them of the ground.
 shared vec4 velocity[SPHERE_MAX_BODIES + 1];  // w: inverse mass, 0 = nothing moves it in this step
@@ -128,6 +129,8 @@ void solve_sub_steps(uint w) {
       kind = pushes ? SWEEP_PUSH : SWEEP_RELAX;
       continue;
     }
+    bool is_unresolved = pushes && impact && any_impact != 0u && world.rows.z > 0u;
+    if (is_unresolved && gl_LocalInvocationIndex == 0u) ++worst[w].unresolved;
     done = 0;
     if (pushes) {
       move_bodies();

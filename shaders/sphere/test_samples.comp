@@ -1,5 +1,5 @@
-// One invocation a sample that is near the other body: to where it, or its edge, is deepest, and to the candidates that
-// come of it. Twin: test_samples() in sample_test.cpp.
+// One invocation a sample that is near the other body: to where it, or its edge, is deepest, which waits for
+// offer_contacts; edges that cross are candidates at once. Twin: test_samples() in sample_test.cpp.
 #include "shared/sphere.h"
 #include "shared/dispatch.h"
 
@@ -18,24 +18,37 @@ layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[];
 layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob jobs[]; };
 layout(std430, binding = BIND_CANDIDATES) buffer Candidates { SphereCandidate candidates[]; };
 layout(std430, binding = BIND_SAMPLES) readonly buffer NearSamples { SphereSample samples[]; };
+layout(std430, binding = BIND_TOUCHES) writeonly buffer Touches { SphereTouch touches[]; };
 
 #include "sphere/sample_view.h"
 
-// Both kinds end in one call of offer(), which is nearly all of the pass.
+// There are no more touches than samples, and room for as many.
+void put(View view, Touch touch, uint feature) {
+  uint at = atomicAdd(status.touches, 1u);
+  touches[at] = SphereTouch(job, feature | view.side, touch.distance, 0u, vec4(touch.point, 0.0),
+                            vec4(touch.gradient, 0.0));
+  if (at % SPHERE_PAIR_GROUP != 0u) return;
+  uvec3 groups = folded_groups(at / SPHERE_PAIR_GROUP + 1u);
+  atomicMax(status.touch_groups.x, groups.x);
+  atomicMax(status.touch_groups.y, groups.y);
+}
+
 void test_sample(View view, uint feature) {
   uint i = feature & ~SPHERE_EDGE;
   bool of_edge = (feature & SPHERE_EDGE) != 0u, offers;
-  Edge edge = Edge(i, i, Cone(0u, 0u), 0.0, 0u);
-  if (of_edge) edge = edge_at(view.samples, i);
-  Touch p, touch;
-  touches_of(view, edge.a, edge.b, p, touch);
+  uint a = i, b = i;
   if (of_edge) {
-    offers = touches_with_edge(view, i, p, touch, touch);
-  } else {
-    edge.cone = cone_at(view.samples, i);
-    offers = touches_with_node(view, i, touch);
+    Edge edge = edge_at(view.samples, i);
+    a = edge.a;
+    b = edge.b;
   }
-  if (offers) offer(view, touch, edge.cone, feature);
+  Touch p, touch;
+  touches_of(view, a, b, p, touch);
+  if (of_edge)
+    offers = touches_with_edge(view, i, p, touch, touch);
+  else
+    offers = touches_with_node(view, i, touch);
+  if (offers) put(view, touch, feature);
 }
 
 void main() {

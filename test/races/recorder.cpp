@@ -32,8 +32,8 @@ std::size_t most_ties(std::size_t changed) {
 /// Lists of what invocations came upon, in the order of arrival, and the chains that lie in the jobs; and of two edges
 /// that cross, rounding says which one is the contact's.
 bool is_compared(const std::string& pass, const std::string& buffer) {
-  if (buffer == "Candidates" || buffer == "NearSamples") return false;
-  return !(buffer == "Jobs" && (pass == "collect_samples" || pass == "test_samples"));
+  if (buffer == "Candidates" || buffer == "NearSamples" || buffer == "Touches") return false;
+  return !(buffer == "Jobs" && (pass == "collect_samples" || pass == "test_samples" || pass == "offer_contacts"));
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ Batch::Batch(const Capacity& capacity)
   const gl::Defines group = {{"SPHERE_PAIR_GROUP", std::to_string(pair_group_)}};
   collect_samples_ = pass("collect_samples", group);
   test_samples_ = pass("test_samples", group);
+  offer_contacts_ = pass("offer_contacts", group);
   choose_contacts_ = pass("choose_contacts", group);
   prepare_rows_ = pass("prepare_rows");
 }
@@ -139,13 +140,14 @@ void Batch::make_room() {
   at_least(impulses_, row_arena_.size() * SPHERE_ROW_PARTS);
   if (jobs_.size() < status_words + job_words * pairs) {
     at_least(jobs_, status_words + job_words * pairs);
-    const gpu::SphereStatus none{0, 0, 0, 0, 0, 0, 0, 0, {0, 1, 1, 0}, {0, 1, 1, 0}};
+    const gpu::SphereStatus none{0, 0, 0, 0, 0, 0, 0, 0, {0, 1, 1, 0}, {0, 1, 1, 0}, {0, 1, 1, 0}};
     jobs_.storage().write(0, &none, sizeof none);
   }
   const auto room = [&](std::size_t least) {
     return std::max<std::size_t>(1, std::min(std::max(least, capacity_.candidates * pairs), most_candidates()));
   };
   near_samples_.grow(room(least_samples_));
+  touches_.grow(near_samples_.size());
   candidate_list_.grow(room(least_candidates_));
   settings_block_.samples = static_cast<gpu::uint>(near_samples_.size());
   settings_block_.candidates = static_cast<gpu::uint>(candidate_list_.size());

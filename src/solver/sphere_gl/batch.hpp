@@ -12,12 +12,13 @@
 ///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step;
 ///                                                                        impulses alike
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
-///     samples    | those of these pairs that are near, in no order |   candidates alike, in chains of their jobs
+///     samples    | those of these pairs that are near, in no order |   touches alike; candidates, in chains of their
+///                                                                      jobs
 ///
-/// A step is ten dispatches, however many worlds run:
+/// A step is eleven dispatches, however many worlds run:
 ///
-///     find_pairs ─► list_jobs ─► collect_samples ─► test_samples ─► choose_contacts ─►
-///     group/world   thread/pair  group/pair         thread/sample   group/pair
+///     find_pairs ─► list_jobs ─► collect_samples ─► test_samples ─► offer_contacts ─► choose_contacts ─►
+///     group/world   thread/pair  group/pair         thread/sample   thread/touch      group/pair
 ///     color_manifolds ─► prepare_rows ─► solve ─► note_depths ─► update_sleep
 ///     group/world        thread/manifold  group/world, all three
 // clang-format on
@@ -138,8 +139,8 @@ class Batch {
   std::size_t least_samples_ = 0, least_candidates_ = 0;  ///< room for them
   bool bound_ = false;
 
-  gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_,
-      prepare_rows_, solve_, note_depths_, update_sleep_, begin_watch_, watch_rest_, audit_energy_;
+  gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, offer_contacts_, choose_contacts_,
+      color_manifolds_, prepare_rows_, solve_, note_depths_, update_sleep_, begin_watch_, watch_rest_, audit_energy_;
   gl::Timer timer_;
 
   ShapeTable shapes_;
@@ -160,6 +161,7 @@ class Batch {
   gl::Buffer<gpu::SphereContact> contacts_{"sphere.contacts"};
   gl::Buffer<gpu::uint> jobs_{"sphere.jobs"};
   gl::Buffer<gpu::SphereSample> near_samples_{"sphere.near_samples"};
+  gl::Buffer<gpu::SphereTouch> touches_{"sphere.touches"};
   gl::Buffer<gpu::SphereCandidate> candidate_list_{"sphere.candidates"};
   gl::Buffer<gpu::uint> colors_{"sphere.colors"};
   gl::Buffer<gpu::SphereOrdered> order_{"sphere.order"};

@@ -38,6 +38,7 @@ void Batch::bind() const {
   contacts_.bind(BIND_CONTACTS);
   jobs_.bind(BIND_JOBS);
   near_samples_.bind(BIND_SAMPLES);
+  touches_.bind(BIND_TOUCHES);
   candidate_list_.bind(BIND_CANDIDATES);
   colors_.bind(BIND_COLORS);
   order_.bind(BIND_ORDER);
@@ -69,7 +70,11 @@ void Batch::find_contacts() {
   }
   {
     gl::Stage stage(timer_, "test_samples");
-    gl::dispatch_indirect(test_samples_, status, offsetof(gpu::SphereStatus, sample_groups));
+    gl::dispatch_indirect(test_samples_, status, offsetof(gpu::SphereStatus, sample_groups), gl::Barrier::arguments);
+  }
+  {
+    gl::Stage stage(timer_, "offer_contacts");
+    gl::dispatch_indirect(offer_contacts_, status, offsetof(gpu::SphereStatus, touch_groups));
   }
   gl::Stage stage(timer_, "choose_contacts");
   gl::dispatch_indirect(choose_contacts_, status, offsetof(gpu::SphereStatus, groups));
@@ -126,13 +131,13 @@ void Batch::step() {
 std::size_t Batch::bytes() const {
   std::size_t sum = shapes_.bytes();
   for (const gl::Storage* s :
-       {&settings_.storage(),     &running_.storage(),        &worlds_.storage(),   &progress_.storage(),
-        &planes_.storage(),       &bodies_.storage(),         &states_.storage(),   &tensors_.storage(),
-        &near_.storage(),         &boxes_.storage(),          &ranges_.storage(),   &pairs_.storage(),
-        &free_.storage(),         &manifolds_.storage(),      &contacts_.storage(), &jobs_.storage(),
-        &near_samples_.storage(), &candidate_list_.storage(), &colors_.storage(),   &order_.storage(),
-        &rows_.storage(),         &impulses_.storage(),       &worst_.storage(),    &asks_.storage(),
-        &watched_.storage(),      &audits_.storage(),         &seen_.storage()})
+       {&settings_.storage(),     &running_.storage(),   &worlds_.storage(),         &progress_.storage(),
+        &planes_.storage(),       &bodies_.storage(),    &states_.storage(),         &tensors_.storage(),
+        &near_.storage(),         &boxes_.storage(),     &ranges_.storage(),         &pairs_.storage(),
+        &free_.storage(),         &manifolds_.storage(), &contacts_.storage(),       &jobs_.storage(),
+        &near_samples_.storage(), &touches_.storage(),   &candidate_list_.storage(), &colors_.storage(),
+        &order_.storage(),        &rows_.storage(),      &impulses_.storage(),       &worst_.storage(),
+        &asks_.storage(),         &watched_.storage(),   &audits_.storage(),         &seen_.storage()})
     sum += s->bytes();
   return sum;
 }

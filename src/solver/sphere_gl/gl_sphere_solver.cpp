@@ -167,10 +167,10 @@ class GlSphereSolver final : public Solver, private WorldWatch {
   std::optional<WorstContact> take_worst_contact(WorldId id) override {
     Resident& r = known(id);
     const gpu::SphereWorst worst = std::exchange(r.worst, {});
-    r.worst_taken = r.worst_taken || worst.relative > 0;
-    if (worst.relative <= 0) return WorstContact();
+    r.worst_taken = r.worst_taken || worst.relative > 0 || worst.unresolved > 0;
+    if (worst.relative <= 0) return WorstContact{-1, -1, 0, 0, 0, worst.unresolved};
     const auto named = [&](gpu::uint body) { return body < r.bodies ? static_cast<int>(body) : -1; };
-    return WorstContact{named(worst.a), named(worst.b), worst.depth, worst.relative, worst.ago, 0};
+    return WorstContact{named(worst.a), named(worst.b), worst.depth, worst.relative, worst.ago, worst.unresolved};
   }
 
   WorldWatch* watch() override { return this; }

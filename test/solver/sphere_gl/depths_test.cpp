@@ -60,6 +60,36 @@ TEST(SphereGlDepths, AreThoseOfTheTwin) {
   EXPECT_LT(found, 35u) << "steps without one";
 }
 
+// With a tolerance that no contact meets, each sub-step of a step with an impact ends before it is solved; a step
+// without one has none.
+TEST(SphereGlDepths, UnresolvedImpactsAreCountedBySubSteps) {
+  gl::Device::current().make_current();
+  const Heap heap;
+  for (const float speed : {1.0f, 0.0f}) {
+    World world = heap.world(1, 3);
+    world.settings.tolerance = -1;
+    world.gravity.setZero();
+    world.bodies[0].q = sphere::Quatf::Identity();
+    world.bodies[0].x = sphere::Vec3f(0, 0, 0.0105f);
+    world.bodies[0].v = sphere::Vec3f(0, 0, -speed);
+    world.bodies[0].w.setZero();
+    Capacity roomy;
+    roomy.candidates = 1024;
+    Batch batch(roomy);
+    gpu::SphereProgress progress;
+    const Batch::Slot slot = batch.add(world, progress);
+    progress.steps_left = 1000;
+    batch.upload_progress({{slot, progress}});
+    batch.run({slot});
+    const int sub_steps = world.plan().sub_steps;
+    batch.step();
+    step(world);
+    ASSERT_EQ(batch.progress(slot).overflow, 0u);
+    EXPECT_EQ(world.deepest.unresolved_impacts, speed > 0 ? sub_steps : 0);
+    EXPECT_EQ(batch.worst(slot).unresolved, world.deepest.unresolved_impacts);
+  }
+}
+
 TEST(SphereGlDepths, AreTheSameAloneAndInABatch) {
   const auto taken = [](const std::vector<int>& variants, std::size_t place) {
     const auto solver = make_gl_sphere_solver(coarse());
