@@ -135,7 +135,6 @@ struct SphereSettingsBlock {
   float touch_move;        // in diagonals: rest_move if bodies sleep by touch
   float tolerance;         // diagonals per second: a contact is solved when a sweep changes its speed by no more than
                            // this
-  float exact_tolerance;   // m/s: the same in a step with an impact, in worlds of at most SPHERE_EXACT_BODIES
   vec4 softness[3];        // by Stiffness: rate (as a share of the sub-step rate), damping ratio, slop (diagonals),
                            // sub-steps in place of one
 };

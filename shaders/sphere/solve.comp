@@ -83,7 +83,6 @@ bool any_unconverged(uint sweeps) {
 
 void begin_sub_step(uint w, int k) {
   take_sub_step_of(w, uint(k));
-  if (any_impact != 0u && world.bodies.y <= SPHERE_EXACT_BODIES) tolerance = min(tolerance, settings.exact_tolerance);
   FOR_OWN_BODIES(i) integrate_velocity(i, plan.sub_step);
   barrier();
 }

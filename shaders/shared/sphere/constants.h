@@ -17,8 +17,4 @@
 
 #define SPHERE_BOUNCE_SWEEPS 12u  // sweeps of restitution: a face that lands flat shares its impact among many contacts
 #define SPHERE_COLORS 64  // the last color is for manifolds that fit into no other one and are solved one by one
-
-// Worlds of at most so many bodies solve impacts exactly; more = small heaps cost more, fewer = what falls on a house
-// of cards of four levels breaks it down.
-#define SPHERE_EXACT_BODIES 28u
 #endif
