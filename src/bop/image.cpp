@@ -2,6 +2,7 @@
 /// (writer.cpp).
 #include "bop/image.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/gray_image.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "bop/visibility.hpp"
@@ -42,15 +43,6 @@ std::vector<const ScenePart*> in_places(const Scene& scene) {
     if (!place) place = *next++;
   }
   return places;
-}
-
-std::vector<std::uint8_t> gray_of(const RangeImage& image) {
-  std::vector<std::uint8_t> gray;
-  gray.reserve(image.intensity.size());
-  for (const float value : image.intensity) {
-    gray.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(255.0f * std::clamp(value, 0.0f, 1.0f) + 0.5f) : 0);
-  }
-  return gray;
 }
 
 }  // namespace

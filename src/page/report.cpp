@@ -40,8 +40,8 @@ double rounded(double value) {
   return std::isfinite(value) && value != 0.0 ? std::strtod(std::to_string(value).c_str(), nullptr) : 0.0;
 }
 
-/// Grey images of sensors are dim, as only highlights come near to white: all but the brightest hundredth fills the
-/// range.
+/// Pictures of the model `image` may be dim, as only highlights come near to white: all but the brightest hundredth
+/// fills the range.
 void brighten(std::vector<std::uint8_t>& levels) {
   if (levels.empty()) return;
   std::vector<std::uint8_t> sorted = levels;

@@ -1,3 +1,5 @@
+/// Filters of disparities as librealsense has them (smoothing along rows and columns, averages over images, filling of
+/// holes, decimation, rounding), and the share of the noise that they keep.
 #include "sensor/models/disparity_filters.hpp"
 
 #include "core/in_parallel.hpp"

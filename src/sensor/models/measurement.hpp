@@ -15,6 +15,7 @@ struct Measurement {
   std::vector<double> depth;  ///< m; NaN where the code is not valid
   std::vector<Validity> validity;
   std::vector<float> intensity;  ///< mean signal / full well, at most 1
+  std::vector<float> light;      ///< light of the grey image, in any unit and without noise; empty: it is `intensity`
   std::vector<float> snr;        ///< signal / standard deviation of its noise, by formula; of no use where not valid
 
   explicit Measurement(std::size_t pixels)

@@ -3,6 +3,7 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "core/in_parallel.hpp"
+#include "sensor/models/exposure.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -58,6 +59,16 @@ RangeImage image_of(View&& view, Measurement&& measured) {
       image.label[i] = valid ? image.truth_label[i] : std::uint16_t{0};
     }
   });
+  return image;
+}
+
+RangeImage image_with_gray(View&& view, Measurement&& measured, const Sensor& sensor, bool noise, const Draw& draw) {
+  constexpr std::uint64_t piece = std::uint64_t{1} << 60;  // behind those of the models
+  const int width = view.lens.width;
+  std::vector<std::uint8_t> gray = exposed_for_parts(std::move(measured.light), view.label, width,
+                                                     Imager(sensor.imager, noise), random_of(draw).of_piece(piece));
+  RangeImage image = image_of(std::move(view), std::move(measured));
+  image.gray = std::move(gray);
   return image;
 }
 

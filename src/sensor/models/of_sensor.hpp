@@ -30,11 +30,16 @@ Random rays_of(const Draw& draw);
 /// Takes over the truth of the view.
 void add_truth(RangeImage& image, View&& view);
 RangeImage image_of(View&& view, Measurement&& measured);
+/// Adds the grey image of a measurement with light.
+/// @param noise  whether the camera's noise is added
+RangeImage image_with_gray(View&& view, Measurement&& measured, const Sensor& sensor, bool noise, const Draw& draw);
 /// Measures with a model that supports both fidelities.
 template <class Model>
-RangeImage image_by(const Model& model, Fidelity fidelity, View&& view, const Draw& draw) {
+RangeImage image_by(const Model& model, const Sensor& sensor, View&& view, const Draw& draw) {
   const Random random = random_of(draw);
-  return image_of(std::move(view), fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random));
+  const bool decoded = sensor.fidelity == Fidelity::decoded;
+  return image_with_gray(std::move(view), decoded ? model.decoded(random) : model.analytic(random), sensor,
+                         sensor.noise, draw);
 }
 
 /// A plate large enough for any view, that far along the sensor's optical axis, turned about the camera's x.

@@ -168,6 +168,17 @@ std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit
   return out;
 }
 
+/// Light of the grey image: as if the projector spread the light of its dots.
+std::vector<float> Stereo::even_light() const {
+  std::vector<float> out(lit_.size(), 0.0f);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (lit_[i].code == Validity::nothing) continue;
+    const double direct = lit_[i].code == Validity::valid ? brightness_ * white(lit_[i]) : 0.0;
+    out[i] = static_cast<float>(direct + background(i));
+  }
+  return out;
+}
+
 Stereo::Signals Stereo::signals() const {
   const View second = render(scenery_, view_.lens, second_, setup_.near, setup_.far);
   return {signals(view_, lit_, haze_), signals(second, lit(second), haze(second, rays_.of_piece(2)))};
@@ -231,6 +242,7 @@ Measurement Stereo::decoded(const Random& random) const {
   for (int frame = 0; frame < frames; ++frame) {
     out = Measurement(view_.depth.size());
     disparities = matched(light, frame == 0 ? random : random.of_piece(first_frame + frame), out);
+    out.light = even_light();
     decimate(disparities, out);
     filter_one(disparities);
     if (frames > 1) average.add(disparities);
@@ -246,11 +258,13 @@ void Stereo::decimate(std::vector<float>& disparities, Measurement& out) const {
   const int width = view_.lens.width, columns = width / factor;
   disparities = decimated(factor, width, view_.lens.height, disparities);
   Measurement coarse(disparities.size());
+  coarse.light.resize(disparities.size());
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     const std::size_t corner = i / columns * factor * width + i % columns * factor;
     for (int k = 0; k < factor * factor; ++k) {
       const std::size_t from = corner + static_cast<std::size_t>(k / factor) * width + k % factor;
       coarse.intensity[i] += out.intensity[from] / static_cast<float>(factor * factor);
+      coarse.light[i] += out.light[from] / static_cast<float>(factor * factor);
       coarse.snr[i] += out.snr[from] / static_cast<float>(factor * factor);
     }
     coarse.validity[i] = out.validity[corner + static_cast<std::size_t>(factor / 2) * (width + 1)];

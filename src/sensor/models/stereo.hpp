@@ -55,6 +55,7 @@ class Stereo {
   std::vector<float> haze(const View& view, const Random& random) const;
   double ambient(const View& view, std::size_t pixel) const;
   std::vector<float> signals(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze) const;
+  std::vector<float> even_light() const;
   /// Of both cameras, without noise.
   struct Signals {
     std::vector<float> first, second;

@@ -192,7 +192,7 @@ RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, c
   std::optional<View> fine;
   if (lens.width != view.lens.width) fine = render(scenery, lens, view.pose, sensor.near, sensor.far);
   const Stereo model(scenery, fine ? *fine : view, surfaces, stereo_setup(sensor), rays_of(draw));
-  return image_by(model, sensor.fidelity, std::move(view), draw);
+  return image_by(model, sensor, std::move(view), draw);
 }
 
 /// Disparities stay.

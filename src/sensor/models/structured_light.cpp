@@ -227,6 +227,17 @@ StructuredLight::Fringe StructuredLight::fringe(const Pixel& pixel) const {
   return {ambient(pixel.index) + gain_ * whites_[pixel.index] * fringes_.mean(), amplitude(pixel, fringes_)};
 }
 
+/// Light of the grey image at a pixel's centre while the projector shows white.
+double StructuredLight::white_light(std::size_t index, const float* indirect) const {
+  return ambient(index) + gain_ * (whites_[index] + indirect[white]);
+}
+
+/// Replaces direct and ambient light of the pixel's centre by those of the whole pixel.
+void StructuredLight::blend_white_light(const Blend& blend, std::size_t index, Measurement& out) const {
+  out.light[index] += static_cast<float>(setup_.imager.ambient * blend.diffuse - ambient(index) +
+                                         gain_ * (blend.white - whites_[index]));
+}
+
 double StructuredLight::depth_sigma(std::size_t index) const {
   if (codes_[index] != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
   const auto width = static_cast<std::size_t>(view_.lens.width);
@@ -296,6 +307,7 @@ bool StructuredLight::too_dark(const float* indirect) const {
 /// The light of a pixel near an edge. False: it is decided already what becomes of the pixel.
 bool StructuredLight::blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const {
   const Blend blend = strip.blend(pixel, [](const Strip::Cells&, const Strip::Values&) {});
+  blend_white_light(blend, pixel.index, out);
   if (blend.outside) out.validity[pixel.index] = Validity::outside;
   if (blend.outside || (codes_[pixel.index] == Validity::shadow && blend.white <= 0.0)) return false;
   got.mixed = blend.off_share > Blend::tolerated && setup_.settings.mixed == MixedPixels::remove;
@@ -348,6 +360,7 @@ void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Ran
     const bool near_edge = strip.near_edge(i);
     float indirect[most_channels] = {};
     const bool twice = indirect_ && indirect_->at(i, channels(), indirect);
+    out.light[i] = static_cast<float>(white_light(i, indirect));
     if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
     const Pixel p = pixel(i - row * width, row);
     if (twice && code != Validity::valid && !near_edge && too_dark(indirect)) {
@@ -377,6 +390,7 @@ void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Ran
 
 Measurement StructuredLight::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
+  out.light.resize(view_.depth.size());
   in_strips([&](const Strip& strip, int first, int last) {
     for (int row = first; row < last; ++row) measure_row(strip, static_cast<std::size_t>(row), random, out);
   });

@@ -96,6 +96,8 @@ class StructuredLight {
   double diffuse(std::size_t index) const;
   double ambient(std::size_t index) const;
   Fringe fringe(const Pixel& pixel) const;
+  double white_light(std::size_t index, const float* indirect) const;
+  void blend_white_light(const Blend& blend, std::size_t index, Measurement& out) const;
   double amplitude(const Pixel& pixel, const Fringes& fringes) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
   void add_phasor(const Fringes& fringes, const float* indirect, double& column, double& amplitude) const;
@@ -105,6 +107,7 @@ class StructuredLight {
   double scale_for(const Fringe& fringe, double column) const;
   bool too_dark(const float* indirect) const;
   void add_face(const Pixel& pixel, float* images) const;
+  bool expose(const std::vector<float>& images, Random& draw, std::vector<float>& shot, float& scale) const;
   void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
   bool blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const;
   struct Noise;

@@ -25,6 +25,21 @@ void StructuredLight::add_face(const Pixel& pixel, float* images) const {
   add_light(column + reach, share * white, images);
 }
 
+/// Takes the images by the longest exposure that saturates in no fringe, else by the shortest. Returns whether a fringe
+/// saturates.
+bool StructuredLight::expose(const std::vector<float>& images, Random& draw, std::vector<float>& shot,
+                             float& scale) const {
+  bool saturated = true;
+  for (std::size_t k = 0; k < scales_.size() && saturated; ++k) {
+    scale = static_cast<float>(scales_[k]);
+    shot.assign(images.begin(), images.end());
+    for (float& signal : shot) signal *= scale;
+    imager_.expose(shot.data(), static_cast<std::size_t>(fringes_.images()), draw);
+    saturated = imager_.saturated(*std::max_element(shot.begin(), shot.begin() + setup_.settings.steps));
+  }
+  return saturated;
+}
+
 /// Makes the images of a pixel and reads them as a device does.
 void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float>& images, Random& draw,
                            Measurement& out) const {
@@ -34,6 +49,8 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
   thread_local std::vector<float> indirect;
   indirect.resize(static_cast<std::size_t>(channels()) + images.size());
   const bool twice = indirect_ && indirect_->at(i, static_cast<int>(indirect.size()), indirect.data());
+  if (!twice) indirect[white] = 0.0f;
+  out.light[i] = static_cast<float>(white_light(i, indirect.data()));
   if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) return;
   std::fill(images.begin(), images.end(), 0.0f);
   double background = ambient(i);
@@ -45,6 +62,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
         if (white > 0.0) add_light(cells.column[k], white, images.data());
       }
     });
+    blend_white_light(blend, i, out);
     if (blend.outside) out.validity[i] = Validity::outside;
     if (blend.outside || (code == Validity::shadow && blend.white <= 0.0 && !twice)) return;
     mixed = blend.off_share > Blend::tolerated && setup_.settings.mixed == MixedPixels::remove;
@@ -57,15 +75,8 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
     images[n] += static_cast<float>(background);
   }
   thread_local std::vector<float> shot;
-  bool saturated = true;
   float scale = 1.0f;
-  for (std::size_t k = 0; k < scales_.size() && saturated; ++k) {
-    scale = static_cast<float>(scales_[k]);
-    shot.assign(images.begin(), images.end());
-    for (float& signal : shot) signal *= scale;
-    imager_.expose(shot.data(), static_cast<std::size_t>(fringes_.images()), draw);
-    saturated = imager_.saturated(*std::max_element(shot.begin(), shot.begin() + setup_.settings.steps));
-  }
+  const bool saturated = expose(images, draw, shot, scale);
   const float sum = std::accumulate(shot.begin(), shot.begin() + setup_.settings.steps, 0.0f);
   const float mean = sum / static_cast<float>(setup_.settings.steps);
   out.intensity[i] = std::min(1.0f, mean / scale);
@@ -91,6 +102,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
 
 Measurement StructuredLight::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
+  out.light.resize(view_.depth.size());
   in_strips([&](const Strip& strip, int first, int last) {
     std::vector<float> images(static_cast<std::size_t>(this->images()));
     for (int row = first; row < last; ++row) {

@@ -102,7 +102,7 @@ void check_places(const Sensor& sensor, const std::string& where) {
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
   const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor), rays_of(draw));
-  return image_by(model, sensor.fidelity, std::move(view), draw);
+  return image_by(model, sensor, std::move(view), draw);
 }
 
 /// The column of the true projector, met with what is believed of it.

@@ -36,7 +36,8 @@ RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, c
   const TimeOfFlightSetup setup{sensor.settings.of<TimeOfFlightSettings>(), sensor.noise, sensor.near, sensor.far,
                                 indirect_of(sensor)};
   Measurement measured = time_of_flight(scenery, view, surfaces, setup, random_of(draw), rays_of(draw));
-  return image_of(std::move(view), std::move(measured));
+  const bool noise = false;  // shot noise that fits noise of millimetres in depth is below a grey level
+  return image_with_gray(std::move(view), std::move(measured), sensor, noise, draw);
 }
 
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {

@@ -1,0 +1,15 @@
+/// The grey image of a sensor, as data sets contain it: a level for each pixel, linear in the light that it receives.
+#pragma once
+
+#include "bin_scenes/sensor/range_image.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Returns the levels of RangeImage::gray, row-major. Of models without it they are 255 * intensity, and 0 where the
+/// intensity is not finite.
+std::vector<std::uint8_t> gray_of(const RangeImage& image);
+
+}  // namespace bin_scenes

@@ -1,0 +1,19 @@
+#include "bin_scenes/sensor/gray_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+std::vector<std::uint8_t> gray_of(const RangeImage& image) {
+  if (!image.gray.empty()) return image.gray;
+  std::vector<std::uint8_t> levels;
+  levels.reserve(image.intensity.size());
+  for (const float value : image.intensity) {
+    levels.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(255.0f * std::clamp(value, 0.0f, 1.0f) + 0.5f)
+                                          : 0);
+  }
+  return levels;
+}
+
+}  // namespace bin_scenes
