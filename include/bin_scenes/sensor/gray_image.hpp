@@ -1,4 +1,5 @@
-/// The grey image of a sensor, as data sets contain it: a level for each pixel, linear in the light that it receives.
+/// The grey image of a sensor, as data sets contain it: a level of 0 to 255 for each pixel. Models with
+/// automatic exposure apply a gamma of 2.2 (docs/use/sensors.md).
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

@@ -240,7 +240,7 @@ TEST(SphereGlBatch, WorldsAtOnceGoByMemory) {
 }
 
 // What a step costs on a device for which dispatches and barriers are dear (docs/develop/gpu.md).
-TEST(SphereGlBatch, AStepIsTenDispatchesForAllWorldsOfABatch) {
+TEST(SphereGlBatch, AStepIsElevenDispatchesForAllWorldsOfABatch) {
   const auto solver = make_gl_sphere_solver(coarse());
   std::vector<WorldId> ids;
   for (const int variant : {0, 1, 2}) ids.push_back(Handful(variant).add(*solver));
@@ -253,12 +253,12 @@ TEST(SphereGlBatch, AStepIsTenDispatchesForAllWorldsOfABatch) {
         for (const WorldId id : ids) solver->set_phase(id, each);
     };
     const gl::Traffic woken = asked_for(*solver, ids, 7 * solver->step_size(), wake);
-    EXPECT_EQ(woken.barriers, 7u * 10u + 3u + 3u + 2u + 2u + 2u);  // bodies that a phase wakes go up, a copy a world
+    EXPECT_EQ(woken.barriers, 7u * 11u + 3u + 3u + 2u + 2u + 2u);  // bodies that a phase wakes go up, a copy a world
     const gl::Traffic slice = asked_for(*solver, ids, 7 * solver->step_size());
-    EXPECT_EQ(slice.dispatches, 7u * 10u + 3u) << "and three of the watch";
+    EXPECT_EQ(slice.dispatches, 7u * 11u + 3u) << "and three of the watch";
     // A barrier behind each, and one before each copy: what worlds are to do, who runs, settings; one read back.
-    EXPECT_EQ(slice.barriers, 7u * 10u + 3u + 1u + 2u + 2u);
-    EXPECT_EQ(slice.argument_barriers, 7u * 2u) << "how many pairs and samples there are";
+    EXPECT_EQ(slice.barriers, 7u * 11u + 3u + 1u + 2u + 2u);
+    EXPECT_EQ(slice.argument_barriers, 7u * 3u) << "how many pairs, samples and touches there are";
     EXPECT_EQ(slice.bytes_uploaded,
               3 * sizeof(gpu::SphereAsk) + 3 * sizeof(gpu::uint) + sizeof(gpu::SphereSettingsBlock));
     EXPECT_EQ(slice.bytes_read_back, 3 * (sizeof(gpu::SphereSeen) + sizeof(gpu::SphereProgress) +
