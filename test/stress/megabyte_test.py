@@ -101,7 +101,7 @@ def run(command, folder):
     """Exit code, message, and processor seconds of it and its children."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, cwd=folder, capture_output=True, preexec_fn=limits, timeout=20 * LIMIT_S,
-                          env=dict(os.environ, XDG_CACHE_HOME=str(folder / "cache")))
+                          env=dict(os.environ, XDG_CACHE_HOME=str(folder / "cache"), BIN_SCENES_PROGRESS="0"))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return done.returncode, done.stderr, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
