@@ -7,16 +7,20 @@ sound data set.
 import fcntl
 import json
 import os
+import pathlib
 import re
 import shutil
 import sqlite3
+import sys
 
 import numpy as np
 
 import data_set
 from data_set import DataSetTest
 from bin_scenes_data import read_png
-from industrial_test import CORRUPTIONS as INDUSTRIAL
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bop"))
+from industrial_test import CORRUPTIONS as INDUSTRIAL  # noqa: E402
 
 SCENE = "scenes/scene_000001/"
 BOP = "bop/train/000001/"
