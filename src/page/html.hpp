@@ -11,13 +11,14 @@
 
 namespace bin_scenes {
 
-/// Text between tags.
+/// Returns a text with the characters escaped that have a meaning in HTML and SVG.
 std::string escaped(const std::string& text);
-/// "%.*g".
+/// Returns a number with that many significant digits, as printf("%.*g") formats it.
 std::string short_number(double value, int digits);
 
+/// Returns bytes as base64 text.
 std::string base64(const Bytes& bytes);
-/// Numbers as typed arrays of a page have them: little-endian, base64.
+/// Returns numbers in the form from which the scripts of a page make typed arrays: little-endian bytes as base64 text.
 template <class Number>
 std::string packed(const std::vector<Number>& numbers) {
   Bytes bytes(numbers.size() * sizeof(Number));
@@ -25,12 +26,14 @@ std::string packed(const std::vector<Number>& numbers) {
   return base64(bytes);
 }
 
-/// three.js and its orbit control, for a page to hold; empty where Debian's libjs-three is not installed.
+/// Returns the scripts of three.js and its orbit control, to be embedded in a page; empty if Debian's package
+/// libjs-three is not installed.
 std::string three_js();
 
-/// A page with its script library and data in their places, which are marked in the template.
+/// Returns a page in which the script library and the data (JSON) have replaced the marks /*THREE*/ and /*DATA*/null of
+/// the template.
 std::string filled_page(std::string page, const std::string& library, const std::string& json);
-/// Replaces the first `mark` of a page.
+/// Replaces the first occurrence of `mark` in a page.
 void put(std::string& page, const std::string& mark, const std::string& text);
 
 }  // namespace bin_scenes

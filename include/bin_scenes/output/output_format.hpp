@@ -1,5 +1,6 @@
-/// The formats in which a scene can be written: one table, to which a program may add. The command line, plans, the
-/// completion of shells and the store of finished scenes take everything they know of a format from it.
+/// The table of the formats in which a scene can be written. The command line, plans, the completion in shells and the
+/// store of finished scenes read from it which formats exist, what they need, and which files they write. A program can
+/// add formats of its own.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"
@@ -14,7 +15,7 @@
 
 namespace bin_scenes {
 
-/// A scene that is to be written.
+/// The data from which a format writes a scene.
 struct SceneOutput {
   const Scene& scene;
   const LoadedRequest& loaded;
@@ -23,19 +24,21 @@ struct SceneOutput {
   McapProfile mcap = McapProfile::ros1;
 };
 
+/// One format: its name and needs (SceneFormat), and how it is written.
 struct OutputFormat : SceneFormat {
-  /// Writes its files into the folder of the scene. Empty: they are written elsewhere (scene.json, which is always
-  /// there, and BOP's folders).
+  /// Writes the files of this format into the folder of the scene. Empty if other code writes them: scene.json, which
+  /// every scene has, and the folders of BOP.
   std::function<void(const std::string& folder, const SceneOutput&)> write = {};
-  /// Names of the files that a finished scene has of it, beside those that only some scenes have.
+  /// Returns the names of the files of this format that every finished scene of a request contains.
   std::function<std::vector<std::string>(const Request&)> files = {};
-  /// Whether this build can write it; empty: every build can.
+  /// Whether this build can write the format. Empty means that every build can.
   std::function<bool()> available = {};
 };
 
-/// In the order of scene_formats().
+/// Returns all formats, in the order of scene_formats().
 const std::vector<OutputFormat>& output_formats();
-/// For the start of a program. Throws an input Error if the name is known.
+/// Adds a format. A program calls it before it starts its first job. Throws an input Error if a format of that name
+/// exists already.
 void register_output_format(OutputFormat format);
 
 }  // namespace bin_scenes

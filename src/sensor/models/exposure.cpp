@@ -28,7 +28,7 @@ double scale_for(std::vector<float> light) {
     if (*at > 0.0f) scale = std::min(scale, signal_of(level) / *at);
   };
   if (!light.empty()) {
-    limit(0.5, middle_level);
+    limit(0.5, median_level);
     limit(0.99, bright_level);
   }
   return std::isfinite(scale) ? scale : 0.0;

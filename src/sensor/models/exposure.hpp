@@ -9,10 +9,10 @@
 
 namespace bin_scenes {
 
-/// The exposure is the longest for which the median of the parts' pixels is at most `middle_level`, and at most a
+/// The exposure is the longest for which the median of the parts' pixels is at most `median_level`, and at most a
 /// hundredth of them is brighter than `bright_level`. Levels are 255 * signal^(1 / gray_gamma): highlights of metal are
 /// twenty times as bright as its median, which levels that are linear in the signal would leave nearly black.
-constexpr double middle_level = 120.0, bright_level = 245.0, gray_gamma = 2.2;
+constexpr double median_level = 120.0, bright_level = 245.0, gray_gamma = 2.2;
 
 /// Returns the levels (0 to 255, row-major) of pixels that receive this light, with the imager's noise. Without a part
 /// in view, the exposure is that of everything that is lit.
