@@ -9,7 +9,8 @@ namespace bin_scenes {
 
 /// Writes the folder of a scene. Throws an environment Error if it cannot be written.
 /// @param objects      number of models in the data set
-/// @param run_lengths  masks are written to scene_mask.json, scene_mask_visib.json and scene_gt_coco.json instead of PNG
+/// @param run_lengths  masks are written to scene_mask.json, scene_mask_visib.json and scene_gt_coco.json instead of
+/// PNG
 ///                     files
 void write_bop(const std::string& directory, const std::vector<BopImage>& images, const BopLayout& layout = {},
                const std::string& split = "train", std::size_t objects = 0, bool run_lengths = false);
