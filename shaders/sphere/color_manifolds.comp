@@ -170,14 +170,15 @@ uint color_all(SphereWorld world, uint w, uint list, uint count) {
 }
 
 // Neighbours wait until the longest of them has had its visits of contacts. Where that takes an eighth longer than when
-// all were colored anew, the next step does so again.
+// all were colored anew, the next step does so again. A step that is repeated for want of rows must find the colors of
+// this attempt: its repetition judges them.
 void judge_colors(uint w, bool anew) {
   uint waste = (longest_visits << 10u) / max(visits, 1u);
   if (anew) {
     progress[w].base_colors = highest_color + 1u;
     progress[w].base_waste = waste;
     ++progress[w].colorings;
-  } else if (8u * waste > 9u * progress[w].base_waste) {
+  } else if (progress[w].overflow == 0u && 8u * waste > 9u * progress[w].base_waste) {
     progress[w].base_colors = 0u;
   }
 }
@@ -211,7 +212,7 @@ void main() {
   barrier();
   FOR_OWN(o, ordered) join_block(world, o);
   if (thread != 0u) return;
-  judge_colors(w, (rounds & COLORED_ANEW) != 0u);
   progress[w].rows = row_top / SPHERE_ROW_PARTS;
   if (progress[w].rows > world.rows.y) progress[w].overflow = SPHERE_ROW_OVERFLOW;
+  judge_colors(w, (rounds & COLORED_ANEW) != 0u);
 }

@@ -102,6 +102,14 @@ TEST(SphereGlBatch, AListThatIsFullGrowsAndTheStepIsRepeated) {
   EXPECT_GT(solver->profile().counters.at("steps_repeated"), 1u);
 }
 
+// An attempt for which there are too few rows has colored the manifolds: its repetition must find these colors, and
+// judge them as it would have been done.
+TEST(SphereGlBatch, AStepThatIsRepeatedForRowsHasTheSameColors) {
+  Capacity few_rows;
+  few_rows.rows = 1;
+  for (const int variant : {1, 4, 5}) EXPECT_EQ(fallen(variant, few_rows), fallen(variant)) << variant;
+}
+
 TEST(SphereGlBatch, AListThatMayNotGrowIsFilledSeveralTimes) {
   Capacity small;
   small.candidates = 1;
