@@ -73,8 +73,11 @@ void run(Run& out) {
   groove_row(out, "albedo 0.8, gloss 0.9, roughness 0.3", shiny, 16.0, 1, false);
 }
 
-const Registration registration{
-    "light", "structured light in a V-groove", {"surface", "period_px", "bounces", "fidelity"}, run, "src/sensor"};
+const Registration registration{"light",
+                                "structured light in a V-groove",
+                                {"surface", "period_px", "bounces", "fidelity"},
+                                run,
+                                "src/light src/raster src/sensor"};
 
 }  // namespace
 }  // namespace bin_scenes::bench

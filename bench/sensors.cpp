@@ -7,8 +7,8 @@
 #include "bin_scenes/sensor/models.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
+#include "raster/stage.hpp"
 #include "runs.hpp"
-#include "sensor/stage.hpp"
 #include "sensor/targets.hpp"
 
 #include <functional>
@@ -153,8 +153,11 @@ void run(Run& out) {
   time(out, "silhouettes of 256 parts alone", 0.4, [&] { silhouettes(scenery, view, sensor.near, sensor.far); });
 }
 
-const Registration registration{
-    "sensors", "wall and CPU seconds of a view by each sensor model", {"what"}, run, "src/core src/mesh src/sensor"};
+const Registration registration{"sensors",
+                                "wall and CPU seconds of a view by each sensor model",
+                                {"what"},
+                                run,
+                                "src/core src/light src/mesh src/raster src/sensor"};
 
 }  // namespace
 }  // namespace bin_scenes::bench

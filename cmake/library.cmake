@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 set(objects)
 set(libraries)
-foreach(layer core scene gl mesh part sphere sphere_gl bullet thesis solver pour quality sensor grasp config output bop generate)
+foreach(layer core scene gl mesh part sphere sphere_gl bullet thesis solver pour quality raster light sensor grasp config output bop generate)
   list(APPEND objects $<TARGET_OBJECTS:bin_scenes_${layer}>)
   list(APPEND libraries bin_scenes_${layer})
 endforeach()

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
-#include "bin_scenes/sensor/lens.hpp"
+#include "bin_scenes/raster/lens.hpp"
 #include "bop/masks.hpp"
 
 #include <array>

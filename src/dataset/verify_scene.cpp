@@ -2,7 +2,7 @@
 /// is used.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
-#include "bin_scenes/sensor/validity.hpp"
+#include "bin_scenes/scene/validity.hpp"
 #include "dataset/verify.hpp"
 #include "dataset/whole_folders.hpp"
 #include "output/boxes.hpp"

@@ -1,7 +1,7 @@
 /// Grasps as images, for networks that learn where to grasp: how good each pixel is for the cup of a gripper, and how
 /// far its part is covered.
 #include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/sensor/lens.hpp"
+#include "bin_scenes/raster/lens.hpp"
 #include "output/png.hpp"
 
 #include <cmath>

@@ -14,7 +14,7 @@ struct ViewCloud {
   /// Sensor's optical frame (m). Pixels without a measurement lie where the truth is, as far as that is known.
   std::vector<std::array<float, 3>> points;
   std::vector<std::uint16_t> labels;   ///< 0: background or bin; part id + 1 otherwise
-  std::vector<std::uint8_t> validity;  ///< codes of sensor/validity.hpp
+  std::vector<std::uint8_t> validity;  ///< codes of scene/validity.hpp
   std::vector<float> errors;           ///< m: measured less true depth; NaN = not known
   bool has_errors = false;
   std::string source;  ///< name of the file; empty: there is none

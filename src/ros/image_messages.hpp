@@ -36,7 +36,7 @@ sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const st
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header);
 /// 16UC1: 0 = background, part id + 1 otherwise; as taken.
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);
-/// mono8: codes of sensor/validity.hpp; as taken.
+/// mono8: codes of scene/validity.hpp; as taken.
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
 /// mono8, mono16, rgb8 or rgb16, as taken; none of a sensor that takes no picture.
 std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header);

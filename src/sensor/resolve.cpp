@@ -210,23 +210,6 @@ void check_sensor(const Sensor& sensor, const LoadedRequest& loaded, const Aabb*
 
 }  // namespace
 
-Lens lens_of(const Sensor& sensor) {
-  const std::vector<double>& k = sensor.k;
-  Lens lens;
-  lens.width = sensor.width;
-  lens.height = sensor.height;
-  lens.fx = k.at(0), lens.skew = k.at(1), lens.cx = k.at(2);
-  lens.fy = k.at(4), lens.cy = k.at(5);
-  lens.distortion = sensor.distortion;
-  return lens;
-}
-
-Lens lens_of(const Projector& projector) {
-  Lens lens = Lens::from_fov(projector.width, projector.height, projector.fov);
-  lens.distortion = projector.distortion;
-  return lens;
-}
-
 Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
   Sensor full = sensor;
   const std::string where = "sensors: " + sensor.name;

@@ -1,8 +1,8 @@
 /// Targets for measuring a sensor: plates, steps and balls of known shape, placed in an otherwise empty world.
 #pragma once
 
-#include "bin_scenes/sensor/scenery.hpp"
-#include "sensor/models/illumination.hpp"
+#include "bin_scenes/raster/scenery.hpp"
+#include "light/illumination.hpp"
 
 #include <memory>
 #include <vector>

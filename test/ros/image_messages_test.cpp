@@ -2,7 +2,7 @@
 #include "markers.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/sensor/lens.hpp"
+#include "bin_scenes/raster/lens.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
-#include "sensor/stage.hpp"
+#include "raster/stage.hpp"
 
 #include <gtest/gtest.h>
 

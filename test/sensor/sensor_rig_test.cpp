@@ -1,7 +1,7 @@
 #include "bin_scenes/sensor/sensor_rig.hpp"
 
 #include "bin_scenes/sensor/resolve.hpp"
-#include "sensor/stage.hpp"
+#include "raster/stage.hpp"
 
 #include <gtest/gtest.h>
 

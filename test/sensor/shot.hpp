@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/sensor/view.hpp"
+#include "bin_scenes/raster/view.hpp"
 #include "sensor/models/measurement.hpp"
 #include "sensor/targets.hpp"
 

@@ -1,7 +1,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
+#include "bin_scenes/raster/lens.hpp"
 #include "bin_scenes/sensor/filter.hpp"
-#include "bin_scenes/sensor/lens.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "sensor/fit.hpp"
 

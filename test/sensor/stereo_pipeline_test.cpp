@@ -6,10 +6,10 @@
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
+#include "raster/stage.hpp"
 #include "sensor/models/disparity_filters.hpp"
 #include "sensor/models/stereo.hpp"
 #include "sensor/shot.hpp"
-#include "sensor/stage.hpp"
 #include "sensor/targets.hpp"
 
 #include <gtest/gtest.h>

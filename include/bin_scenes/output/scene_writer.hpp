@@ -54,7 +54,7 @@ void make_directory(const std::filesystem::path& path);
 
 /// Writes a cloud as a PCD file: organised, binary, in the optical frame, with the pose as VIEWPOINT. Fields: x y z
 /// normal_x normal_y normal_z intensity label validity truth_normal_x truth_normal_y truth_normal_z snr. `label` is 0
-/// for background and bin, and id + 1 for a part; `validity` is a code of sensor/validity.hpp; the true normal is that
+/// for background and bin, and id + 1 for a part; `validity` is a code of scene/validity.hpp; the true normal is that
 /// of the surface which the pixel sees, whether it was measured or not.
 void write_pcd(const std::string& path, const RangeImage& image);
 /// Writes the same cloud as binary little-endian PLY, in which the normals are called nx ny nz and truth_nx truth_ny

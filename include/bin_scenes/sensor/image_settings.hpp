@@ -2,36 +2,11 @@
 /// (src/sensor/models/image_model.cpp) traces paths of light through the scene; it measures no depth.
 #pragma once
 
-#include "bin_scenes/core/types.hpp"
+#include "bin_scenes/light/image_lamp.hpp"
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace bin_scenes {
-
-/// A light source. The light of several lamps adds up, and a lamp itself casts no shadow.
-struct ImageLamp {
-  enum class Type {
-    area,      ///< a rectangle that emits light to one side
-    ring,      ///< a flat ring, or a disk if `inner` is 0, that emits light to one side
-    dome,      ///< the sky: light from every direction that nothing blocks
-    projector  ///< white light from Sensor::projector
-  } type = Type::area;
-  /// Area, ring: centre in the bin frame, with light leaving along z; none: the pose of the camera.
-  std::optional<Pose> pose;
-  /// Only the ratios between lamps matter. For a projector, it is the radiance of a white surface at 1 m.
-  double radiance = 1.0;
-  Vec3 colour = Vec3::Ones();  ///< factors of the radiance for red, green and blue
-  double width = 0.3;          ///< area: m along x
-  double height = 0.3;         ///< area: m along y
-  double outer = 0.06;         ///< ring: radius (m)
-  double inner = 0.045;        ///< ring: radius (m)
-  double horizon = 0.5;        ///< dome: radiance at the horizon and below it / radiance at the zenith
-  std::string picture;  ///< dome: file of an equirectangular picture; none: an even gradient from horizon to zenith
-  std::string picture_sha256;  ///< digest of the bytes of that file which the reader saw; empty if not known
-  double turn = 0.0;           ///< dome: rad, rotation of the picture about the vertical
-};
 
 /// All settings of the model. The struct is stored in Sensor::settings.
 struct ImageSettings {

@@ -2,46 +2,14 @@
 /// share, and measure(), which calls the model of a sensor. src/sensor/models has one file for each model.
 #pragma once
 
+#include "bin_scenes/light/surfaces.hpp"
+#include "bin_scenes/raster/view.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
-#include "bin_scenes/sensor/view.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace bin_scenes {
-
-/// The optical surfaces of a scene.
-struct Surfaces {
-  std::vector<Surface> lines;  ///< by part line
-  Surface bin;
-  /// The position of a part, and the key of its texture: they distinguish its surface from those of other parts of the
-  /// same line.
-  struct Place {
-    Pose to_part;       ///< from the bin frame to the frame of the part
-    Vec3 longest;       ///< unit vector, longest axis of the part in the part's frame
-    std::uint64_t key;  ///< key of the random numbers of its texture
-  };
-  /// By label. Empty: surfaces have no texture, and Surface::along is in the bin frame.
-  std::vector<Place> places = {};
-
-  /// Returns the surface of a part line, or of the bin if `line` is -1.
-  const Surface& of(std::int32_t line) const { return line < 0 ? bin : lines[static_cast<std::size_t>(line)]; }
-  /// Returns the surface at a point (bin frame), with `along` in the bin frame.
-  /// @param own  storage for the surface if it differs from of(line)
-  const Surface& at(std::int32_t line, std::uint16_t label, const Vec3& point, Surface& own) const {
-    const Surface& even = of(line);
-    if ((!even.texture.any() && even.anisotropy <= 0.0) || label >= places.size()) return even;
-    own = own_surface(even, places[label], point);
-    return own;
-  }
-
- private:
-  static Surface own_surface(const Surface& even, const Place& place, const Vec3& point);
-};
-/// Returns the surfaces of the part lines, without the textures of single parts.
-Surfaces surfaces_of(const Request& request);
-/// Returns the surfaces with the texture of each part of the scene. The texture is the same for all sensors.
-Surfaces surfaces_of(const Scene& scene, const LoadedRequest& loaded);
 
 /// The key from which all random numbers of a sensor in a scene are derived.
 struct Draw {

@@ -2,9 +2,9 @@
 /// filters change its measured part, and output and ROS publish it.
 #pragma once
 
+#include "bin_scenes/raster/silhouettes.hpp"
 #include "bin_scenes/scene/request.hpp"
-#include "bin_scenes/sensor/silhouettes.hpp"
-#include "bin_scenes/sensor/validity.hpp"
+#include "bin_scenes/scene/validity.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
-#include "bin_scenes/sensor/lens.hpp"
+#include "bin_scenes/raster/lens.hpp"
 
 #include <vector>
 
@@ -19,8 +19,5 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds = nullp
 /// Returns all sensors of a request, resolved. Also throws an input Error for a camera, projector or laser that is
 /// below the floor, looks away from the bin, or is inside a part that is there from the start.
 std::vector<Sensor> resolved_sensors(const LoadedRequest& loaded);
-
-Lens lens_of(const Sensor& sensor);  ///< of the camera; K must be filled in
-Lens lens_of(const Projector& projector);
 
 }  // namespace bin_scenes

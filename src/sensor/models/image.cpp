@@ -1,9 +1,9 @@
 #include "sensor/models/image.hpp"
 
 #include "core/in_parallel.hpp"
+#include "light/path_tracer.hpp"
 #include "sensor/models/image_denoise.hpp"
 #include "sensor/models/imager.hpp"
-#include "sensor/models/path_tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ double image_gain(const Lamps& lamps, const Sensor& sensor, const View& view) {
 Measurement take_image(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
                        const Random& paths, const Random& noise, Picture& picture) {
   const auto& settings = sensor.settings.of<ImageSettings>();
-  Lamps lamps(sensor);
+  Lamps lamps(sensor.settings.of<ImageSettings>().lamps, sensor);
   const double gain = image_gain(lamps, sensor, view);
   if (gain > 0.0) lamps.add_everywhere(sensor.imager.ambient / gain);
   const PathTracer tracer(scenery, view.lens, view.pose, surfaces, lamps, setup_of(sensor), paths);

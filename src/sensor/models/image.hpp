@@ -5,7 +5,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/models.hpp"
-#include "sensor/models/lamps.hpp"
+#include "light/lamps.hpp"
 #include "sensor/models/measurement.hpp"
 
 namespace bin_scenes {

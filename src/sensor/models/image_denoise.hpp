@@ -5,8 +5,8 @@
 /// faces share takes the radiance that each face has beside it, weighted by the share of the face in the pixel.
 #pragma once
 
-#include "bin_scenes/sensor/view.hpp"
-#include "sensor/models/path_tracer.hpp"
+#include "bin_scenes/raster/view.hpp"
+#include "light/path_tracer.hpp"
 
 #include <vector>
 

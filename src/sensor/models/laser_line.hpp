@@ -10,11 +10,11 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
-#include "sensor/models/illumination.hpp"
+#include "light/illumination.hpp"
+#include "light/indirect_field.hpp"
+#include "light/sheet_glow.hpp"
 #include "sensor/models/imager.hpp"
-#include "sensor/models/indirect_field.hpp"
 #include "sensor/models/line_peak.hpp"
-#include "sensor/models/sheet_glow.hpp"
 
 #include <array>
 #include <cmath>

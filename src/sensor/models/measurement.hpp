@@ -2,7 +2,7 @@
 /// it into a RangeImage.
 #pragma once
 
-#include "bin_scenes/sensor/validity.hpp"
+#include "bin_scenes/scene/validity.hpp"
 
 #include <cstddef>
 #include <limits>

@@ -4,7 +4,7 @@
 /// "SRA: fast removal of general multipath for ToF sensors").
 #pragma once
 
-#include "sensor/models/indirect_field.hpp"
+#include "light/indirect_field.hpp"
 
 #include <complex>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
-#include "sensor/models/indirect_field.hpp"
+#include "light/indirect_field.hpp"
 #include "sensor/models/measurement.hpp"
 #include "sensor/targets.hpp"
 

@@ -5,11 +5,11 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
+#include "bin_scenes/raster/view.hpp"
 #include "bin_scenes/sensor/stereo_pipeline.hpp"
-#include "bin_scenes/sensor/view.hpp"
-#include "sensor/models/illumination.hpp"
+#include "light/illumination.hpp"
+#include "light/indirect_field.hpp"
 #include "sensor/models/imager.hpp"
-#include "sensor/models/indirect_field.hpp"
 #include "sensor/models/measurement.hpp"
 
 #include <vector>

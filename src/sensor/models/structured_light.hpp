@@ -17,17 +17,17 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
+#include "bin_scenes/raster/view.hpp"
 #include "bin_scenes/sensor/filter.hpp"
-#include "bin_scenes/sensor/view.hpp"
+#include "light/illumination.hpp"
+#include "light/indirect_field.hpp"
+#include "raster/pixel_rays.hpp"
+#include "raster/sight.hpp"
+#include "raster/spots.hpp"
 #include "sensor/models/fringes.hpp"
-#include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
-#include "sensor/models/indirect_field.hpp"
 #include "sensor/models/measurement.hpp"
 #include "sensor/models/triangulation.hpp"
-#include "sensor/pixel_rays.hpp"
-#include "sensor/sight.hpp"
-#include "sensor/spots.hpp"
 
 #include <memory>
 #include <vector>

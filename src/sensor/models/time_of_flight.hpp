@@ -4,9 +4,9 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/sensor/view.hpp"
-#include "sensor/models/illumination.hpp"
-#include "sensor/models/indirect_field.hpp"
+#include "bin_scenes/raster/view.hpp"
+#include "light/illumination.hpp"
+#include "light/indirect_field.hpp"
 #include "sensor/models/measurement.hpp"
 
 namespace bin_scenes {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
-#include "bin_scenes/sensor/lens.hpp"
+#include "bin_scenes/raster/lens.hpp"
 
 namespace bin_scenes {
 

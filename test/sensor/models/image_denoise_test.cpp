@@ -21,7 +21,7 @@ struct Traced {
 
 Traced traced(Targets& targets, const Sensor& sensor, int samples, std::uint64_t seed = 3) {
   const Scenery scenery = targets.scenery();
-  const Lamps lamps(sensor);
+  const Lamps lamps = lamps_of(sensor);
   PathTracer::Setup setup;
   setup.samples = samples, setup.bounces = 1;
   const PathTracer tracer(scenery, lens_of(sensor), *sensor.pose, targets.surfaces(), lamps, setup,

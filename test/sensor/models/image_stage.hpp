@@ -1,8 +1,9 @@
 /// A camera of the model `image` before a plate, and the radiance that it sees.
 #pragma once
 
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
-#include "sensor/models/path_tracer.hpp"
+#include "light/path_tracer.hpp"
 #include "sensor/targets.hpp"
 
 #include <gtest/gtest.h>
@@ -27,6 +28,10 @@ inline Sensor camera(const std::vector<ImageLamp>& lamps, int width = 9, int hei
   Bin bin;
   bin.kind = Bin::Kind::none;
   return resolved(sensor, bin);
+}
+
+inline Lamps lamps_of(const Sensor& sensor) {
+  return Lamps(sensor.settings.of<ImageSettings>().lamps, sensor);
 }
 
 inline ImageLamp dome(double radiance) {
@@ -58,7 +63,7 @@ struct Mean {
 /// Over all pixels, which see the same but for a hair.
 inline Mean radiance(Targets& targets, const Sensor& sensor, int samples, int bounces, By by = By::both) {
   const Scenery scenery = targets.scenery();
-  const Lamps lamps(sensor);
+  const Lamps lamps = lamps_of(sensor);
   PathTracer::Setup setup;
   setup.samples = samples, setup.bounces = bounces, setup.by = by;
   const PathTracer tracer(scenery, lens_of(sensor), *sensor.pose, targets.surfaces(), lamps, setup,

@@ -2,8 +2,8 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
+#include "light/unit_circle.hpp"
 #include "sensor/models/image_stage.hpp"
-#include "sensor/models/unit_circle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ TEST(Image, WaysToFindLampsAgree) {
       targets.add(box_target({0.1, 0.1, 0.2}), {Vec3(0.25, 0.1, 0.9), Quat::Identity()}, surface);
       const Sensor sensor = camera({area}, 40, 40, 0.4);
       const Scenery scenery = targets.scenery();
-      const Lamps lamps(sensor);
+      const Lamps lamps = lamps_of(sensor);
       std::vector<std::vector<double>> pixels(3);
       for (const By by : {By::both, By::lamps, By::lobe}) {
         PathTracer::Setup setup;
@@ -147,7 +147,7 @@ TEST(Image, WhatIsDrawnIsWhatRaysMeet) {
   targets.add(box_target({0.1, 0.1, 0.2}), {Vec3(-0.12, -0.1, 0.9), Quat(0.9, 0.3, 0.2, 0.1).normalized()});
   const Sensor sensor = camera({dome(0.5), flat(ImageLamp::Type::ring, Vec3::Zero())}, 64, 48, 0.4);
   const Scenery scenery = targets.scenery();
-  const Lamps lamps(sensor);
+  const Lamps lamps = lamps_of(sensor);
   Lens drawn = lens_of(sensor), cast = drawn;
   cast.distortion[0] = 1e-13;
   for (const double blur : {0.0, 0.8}) {

@@ -1,8 +1,8 @@
 /// Shadows of a projector and the border of its field, pixel by pixel, against rays in double precision.
 #include "bin_scenes/sensor/models.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
+#include "raster/stage.hpp"
 #include "sensor/models/of_sensor.hpp"
-#include "sensor/stage.hpp"
 
 #include <gtest/gtest.h>
 

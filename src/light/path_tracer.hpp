@@ -1,0 +1,107 @@
+/// The radiance that reaches the pixels of a camera after up to two reflections at other surfaces (Kajiya 1986, "The
+/// rendering equation"). Where a path meets a surface, a random point on a lamp is tested for visibility, and a
+/// direction of the surface's lobe is followed. The results of both methods are weighted by how likely each was to find
+/// the path (multiple importance sampling). On matte surfaces, only the points on lamps are used.
+///
+/// From the second surface on, mirrors are at least as rough as `soft`. Otherwise the few paths that find a lamp via
+/// two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
+/// robust light transport").
+///
+/// The random points fill their squares evenly (Sobol points whose digits are flipped by a key of the pixel), so that
+/// images depend on seed, scene, sensor and pixel only. At the surface that a pixel sees, half of its paths draw a
+/// point on a lamp and the others follow the lobe. Half of the latter continue to further surfaces, where each does
+/// both. Their contributions count two and four times, because light from there varies slowly.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "light/illumination.hpp"
+#include "light/lamps.hpp"
+#include "light/lobe.hpp"
+#include "raster/spots.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes {
+
+class PathTracer {
+ public:
+  struct Setup {
+    int samples = 16;                                   ///< paths a pixel, a power of two
+    int bounces = 1;                                    ///< other surfaces that light may meet
+    double blur = 0.0;                                  ///< pixel, standard deviation of the lens's blur
+    double near = 0.0, far = 1e9;                       ///< m, depths that are seen
+    enum class By { both, lamps, lobe } by = By::both;  ///< how lamps are found; tests compare these methods
+  };
+  PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
+             const Setup& setup, const Random& key);
+
+  static constexpr double bends = 0.82;  ///< cosine of 35 degrees: faces that meet in more are two
+  /// A side of an edge within a pixel: the part that some of its paths see, on faces that continue each other.
+  struct Side {
+    Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = point;  ///< bin frame, m
+    std::uint16_t label = 0;
+    float share = 0.0f;  ///< share of the paths
+    /// Whether another point is of it. @param off  m, so far it may lie from the plane of this one
+    bool takes(const Eigen::Vector3f& other, const Eigen::Vector3f& its_normal, std::uint16_t of, float off) const;
+  };
+  /// The uncertainty of the radiance of a pixel.
+  struct Grain {
+    float variance = 0.0f;  ///< variance of the mean of red, green and blue, estimated from the two halves of the paths
+    std::array<Side, 2> sides = {};  ///< the first two sides that paths see; shares of further sides are missing
+    bool one_face() const { return sides[0].share == 1.0f; }
+  };
+  /// Mean radiance of each pixel of a row.
+  /// @param grain  of the row's pixels, if given
+  std::vector<Rgb> row(std::size_t row, Grain* grain = nullptr) const;
+
+ private:
+  struct Vertex {
+    Vec3 position = Vec3::Zero(), face = position, normal = position;  ///< `normal`: smooth across edges, for shading
+    Vec3 to_eye = Vec3::Zero();
+    std::int32_t line = -1;
+    std::uint16_t label = 0;
+    std::uint32_t pixel = 0, sample = 0;  ///< index of the pixel in the block, and of the sample in the pixel
+    Rgb weight = Rgb::Ones();
+  };
+  struct Scramble {
+    std::uint32_t order, x, y;
+  };
+  struct Row;
+  struct Block;
+
+  const Surface& surface_of(const Vertex& vertex, int bounce, Surface& own) const;
+  bool mirrors(const Surface& surface, int bounce) const { return bounce == 0 && surface.gloss > 0.0; }
+  bool asks(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample >= ask_from_; }
+  bool follows(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample < follow_; }
+  Eigen::Vector2d drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const;
+  Eigen::Vector2d drawn(const Block& block, const Vertex& vertex, int pair) const;
+  void begin(Row& row, std::size_t index) const;
+  void see(Row& row) const;
+  void begin(Block& block, const Row& row, std::size_t first, std::size_t count) const;
+  void add_seen(Block& block) const;
+  std::array<Side, 2> sides_of(const Block& block, std::size_t pixel) const;
+  void ask_lamps(Block& block, int bounce) const;
+  void follow_lobes(Block& block, int bounce) const;
+  void find_ends(Block& block, double times) const;
+  Lamps::Met weight_of(bool mirrors) const;
+  void add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const;
+
+  const Scenery& scenery_;
+  Lens lens_;
+  Pose pose_;
+  Mat3 turn_;
+  const Surfaces& surfaces_;
+  Surfaces soft_;  ///< surfaces for hits that the camera does not see directly
+  const Lamps& lamps_;
+  Setup setup_;
+  Random key_;
+  /// Number of a pixel's paths that follow the lobe of the visible surface and continue. The paths from this number on
+  /// test points on lamps at the visible surface.
+  std::uint32_t follow_, onward_, ask_from_;
+  SpotDrawing spots_;
+  std::vector<std::array<std::uint32_t, 2>> net_;  ///< points of the unit square, times 2^32
+};
+
+}  // namespace bin_scenes
