@@ -1,4 +1,6 @@
-// Rest of a body of world `w`. Needs the bindings Settings, Progress, Bodies, States, Shapes and sphere/body.h.
+// Determines whether a body of world `w` is at rest, which means that its pose has changed by less than a limit during
+// the rest window, and puts bodies to sleep or wakes them. Needs the bindings Settings, Progress, Bodies, States,
+// Shapes and sphere/body.h.
 
 bool moved_lately(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
 

@@ -1,4 +1,5 @@
-// What holds for a sub-step of the solve. Needs the bindings Settings and Progress.
+// Values that are constant during a sub-step of the solve: the compliance of contacts, the shares of friction and of
+// remembered forces that apply, and the tolerance of convergence. Needs the bindings Settings and Progress.
 #include "shared/language.h"
 #include "shared/sphere/contact.h"
 #include "sphere/plan.h"

@@ -16,7 +16,7 @@ namespace bin_scenes {
 struct BopVisibility {
   std::array<int, 4> box = {-1, -1, -1, -1};  ///< x, y, of the last pixel less the first: width and height
   std::array<int, 4> visible_box = {-1, -1, -1, -1};
-  std::size_t all = 0, valid = 0, visible = 0;  ///< pixels; `all` also of what lies beside the image
+  std::size_t all = 0, valid = 0, visible = 0;  ///< pixels; `all` includes pixels outside the image
   MaskBox whole_mask, visible_mask;
 };
 

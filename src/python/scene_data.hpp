@@ -13,7 +13,7 @@
 
 namespace bin_scenes::python {
 
-/// An image with its organised cloud and the bytes of its picture, which are made when they are first asked for.
+/// An image with its organised cloud and the bytes of its picture, which are made on first use.
 class ImageData {
  public:
   explicit ImageData(RangeImage made) : image(std::move(made)) {}

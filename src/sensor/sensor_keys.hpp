@@ -19,7 +19,7 @@ struct KeysOfModel {
 template <class Visitor>
 void visit(Visitor& v, KeysOfModel& section);
 
-/// A visitor of tables as a KeyVisitor.
+/// Presents a visitor of tables (a template) to sensor models as a KeyVisitor (an interface).
 template <class Visitor>
 class AsKeyVisitor final : public KeyVisitor {
  public:

@@ -1,5 +1,6 @@
 /// Provides GLSL's names for Eigen's types and functions, so that the code of shaders/shared/sphere can be compiled as
-/// C++ as well.
+/// C++ as well. Both forms of the solver thereby execute the same text. It is included inside a namespace by the passes
+/// that use shared code.
 #pragma once
 
 #include "shared/language.h"

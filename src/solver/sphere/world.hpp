@@ -84,16 +84,16 @@ struct Settings {
   float touch_move = 5e-4f;  ///< d: the same where bodies sleep by touch, and distance at which they wake others; less
                              ///< = a pick wakes more of the heap, more = what creeps is frozen
 
-  // Switches of what no number turns off, on in every request.
-  bool warm_start = true;        ///< a step begins with the forces of the last one
-  bool speculation = true;       ///< contacts that may close in a step are found before they do
-  bool soonest_first = true;     ///< of a pair's contacts those about to close go before those farther off
-  bool way_back = true;          ///< samples that are deep inside go back to where they came in
-  bool half_way_poses = true;    ///< contacts are found where bodies are halfway through the step
-  bool relaxation = true;        ///< sweeps that take back the velocity which pushing overlap out has left
-  bool friction_reserve = true;  ///< a stage of settling may let a share of friction hold
-  bool gyroscopic = true;        ///< torque of spinning parts whose inertia is not the same about all axes
-  bool oriented_boxes = true;    ///< pairs whose oriented boxes are apart are no pairs
+  // Switches for tests and benchmarks; a request cannot set them, and all are on.
+  bool warm_start = true;             ///< a step begins with the forces of the last one
+  bool speculation = true;            ///< contacts that may close in a step are found before they do
+  bool soonest_first = true;          ///< of a pair's contacts those about to close go before those farther off
+  bool way_back = true;               ///< samples that are deep inside go back to where they came in
+  bool poses_at_contact_time = true;  ///< contacts are found at the poses at StepPlan::contact_time
+  bool relaxation = true;             ///< sweeps that take back the velocity which pushing overlap out has left
+  bool friction_reserve = true;       ///< a stage of settling may let a share of friction hold
+  bool gyroscopic = true;             ///< torque of spinning parts whose inertia is not the same about all axes
+  bool oriented_boxes = true;         ///< pairs whose oriented boxes are apart are no pairs
 
   const Softness& softness(Stiffness of) const {
     return of == Stiffness::soft ? soft : of == Stiffness::stiff ? stiff : rigid;
@@ -262,7 +262,7 @@ struct World {
                               sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps),
                               stiffness == Stiffness::rigid, forgets, settings.probe_slip);
     if (!settings.relaxation) plan.relaxing_sweeps = 0;
-    if (!settings.half_way_poses) plan.half_way = 0;
+    if (!settings.poses_at_contact_time) plan.contact_time = 0;
     return plan;
   }
   bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }

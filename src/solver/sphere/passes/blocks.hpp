@@ -24,7 +24,7 @@ struct Slice {
 
 class Blocks {
  public:
-  /// Blocks have at least so many bodies, but for the last, so that bundles are filled; more where more are joined.
+  /// Smallest number of bodies of a block (except the last one), so that bundles are filled.
   static constexpr std::size_t usual_bodies = 256;
 
   /// Of the world's colored manifolds. Memory is kept from one step to the next.

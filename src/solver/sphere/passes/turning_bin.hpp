@@ -1,5 +1,6 @@
 /// The forces on bodies in a rotating bin: Coriolis and centrifugal forces, and the force due to changes of the angular
-/// velocity.
+/// velocity. The simulation uses the frame of the bin, in which the bin is at rest; without a rotation these forces are
+/// zero.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"
