@@ -9,10 +9,18 @@ namespace {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   TimeOfFlightSettings& s = settings.of<TimeOfFlightSettings>();
-  v.field({"axial", "m", "standard deviation at axial_distance, facing", at_least(0.0, 10.0)}, s.axial);
-  v.field({"axial_growth", "1/m", "times (z - axial_distance) squared", at_least(0.0, 10.0)}, s.axial_growth);
-  v.field({"axial_distance", "m", "distance at which noise begins to grow", at_least(0.0, 1000.0)}, s.axial_distance);
-  v.field({"axial_angle", "m^1.5", "times t^2 / (pi/2 - t)^2 / sqrt(z), t the angle of incidence", at_least(0.0, 10.0)},
+  v.field({"axial", "m",
+           "smallest standard deviation of depth, reached at axial_distance on a surface that faces the camera",
+           at_least(0.0, 10.0)},
+          s.axial);
+  v.field(
+      {"axial_growth", "1/m",
+       "multiplied by (z - axial_distance)^2 and added to the standard deviation; z is the depth", at_least(0.0, 10.0)},
+      s.axial_growth);
+  v.field({"axial_distance", "m", "depth at which the noise is smallest", at_least(0.0, 1000.0)}, s.axial_distance);
+  v.field({"axial_angle", "m^-0.5",
+           "multiplied by z^1.5 t^2 / (pi/2 - t)^2 and added to the standard deviation; t is the angle of incidence",
+           at_least(0.0, 10.0)},
           s.axial_angle);
   v.field({"lateral", "pixel", "jitter of the ray; moves edges, never a plane", at_least(0.0, 100.0)}, s.lateral);
   v.field({"lateral_angle", "pixel", "times t / (pi/2 - t)", at_least(0.0, 100.0)}, s.lateral_angle);
