@@ -110,7 +110,7 @@ class Scene:
         """As `report` in scene.json (docs/use/outputs.md)."""
     @property
     def grasps(self) -> Optional[Dict[str, Any]]:
-        """As grasps.json (docs/use/outputs.md), if they were asked for. Made at each use."""
+        """The grasps as in grasps.json (docs/use/outputs.md) if requested, otherwise None. Built anew at each access."""
     def json(self) -> str:
         """The text of scene.json, as the command line writes it."""
 

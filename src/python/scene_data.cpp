@@ -28,7 +28,7 @@ std::vector<std::uint8_t>& ImageData::picture_bytes() {
 
 Generator::Options options_of(const Wanted& wanted, const Request& request, const std::string& caller) {
   if (wanted.grasps && request.grippers.empty()) {
-    throw input_error("grasps are asked for, but the request has no grippers", caller,
+    throw input_error("grasps are requested, but the request has no grippers", caller,
                       "add for instance grippers=[\"robotiq_2f_85\"]");
   }
   Generator::Options options;

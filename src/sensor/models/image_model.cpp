@@ -24,7 +24,7 @@ constexpr double most_paths = 4e9;
 
 void check_picture(const ImageLamp& lamp, const std::string& key) {
   if (lamp.type != ImageLamp::Type::dome)
-    throw input_error("is of a lamp that is no dome", key, "give type: dome, or leave it out");
+    throw input_error("applies only to lamps of type dome", key, "give type: dome, or leave it out");
   try {
     if (!(Sky(read_panorama(lamp.picture), Rgb::Ones(), 0.0).flux() > 0.0))
       throw input_error("is black", lamp.picture, "give a picture that shines");
