@@ -127,7 +127,7 @@ struct ThesisPush {  // sum over a sphere's contacts
 
 struct ThesisNeighbour {
   uint key;    // body, or THESIS_NODE | sheet
-  uint count;  // of contacts, less one: a table is emptied by filling it with ones
+  uint count;  // number of contacts minus one, so that filling the table with ones empties it
 };
 
 struct ThesisStatus {

@@ -13,7 +13,7 @@ namespace bin_scenes {
 
 constexpr double bop_least_visible = 0.1;  ///< share below which bop_toolkit's evaluation ignores an object
 
-/// As BOP numbers scenes, images, masks and objects.
+/// Formats a number with leading zeros, as BOP does for scenes, images, masks and objects.
 std::string six_digits(std::size_t number);
 
 /// The folders and files of one image in its layout.

@@ -32,7 +32,7 @@ BopVisibility true_visibility(const RangeImage& image, const std::vector<std::ui
 std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_in_camera, const Lens& lens,
                                             const std::vector<float>& distance, double tolerance);
 
-/// From depth along the optical axis to distance from the camera.
+/// Converts depth along the optical axis to distance from the camera.
 std::vector<float> distances(const std::vector<float>& depth, const Lens& lens);
 
 }  // namespace bin_scenes

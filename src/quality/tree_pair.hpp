@@ -130,7 +130,8 @@ void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose
   }
 }
 
-/// Finds in single precision which nodes of two placed trees are certainly apart, by the axes of both frames.
+/// Rejects pairs of nodes of two placed trees whose boxes are certainly apart, by a separating-axis test in single
+/// precision with the axes of both frames.
 class NodePair {
  public:
   NodePair(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance)

@@ -28,7 +28,7 @@ struct DeviceChoice {
   std::string reason;  ///< with the figures that decided
 };
 
-/// By the measured steps: a power law over parts between few and many, continued beyond them; of several scenes, as
+/// Predicts the times from the measured steps by a power law in the number of parts. Of several scenes, as
 /// many are advanced together as were measured. The GPU is taken if it needs less than 0.8 times as long, so that noise
 /// in near ties does not decide.
 DeviceChoice choose_device(const DeviceFigures& figures, std::size_t parts, std::size_t scenes);
@@ -38,7 +38,7 @@ DeviceChoice choose_device(const DeviceFigures& figures, std::size_t parts, std:
 DeviceChoice choose_device(const Request& request);
 
 /// Measures now, on the device that OpenGL provides. Throws an environment Error if there is none.
-/// @param share  of the standard size: tests measure less
+/// @param share  size of the measured heaps relative to the standard size; tests use less than 1
 DeviceFigures measure_devices(double share = 1.0);
 
 /// Returns the figures of this machine, from the cache if possible; none without a GPU.

@@ -84,7 +84,7 @@ void register_bag_writer(BagWriter writer);
 /// Returns the registered function; empty in a program without ROS.
 const BagWriter& bag_writer();
 
-/// As BagWriter, for an MCAP file.
+/// Writes a scene to an MCAP file, as BagWriter writes it to a bag.
 using McapWriter = std::function<void(const std::string& path, McapProfile, const Scene&, const LoadedRequest&,
                                       const std::vector<RangeImage>&)>;
 void register_mcap_writer(McapWriter writer);

@@ -256,7 +256,7 @@ struct World {
     const float wanted = mass_ratio * static_cast<float>(settings.impact_sweeps);
     return static_cast<int>(std::min(wanted, static_cast<float>(settings.most_impact_sweeps)));
   }
-  /// Of the next step.
+  /// Returns the plan of the next step.
   StepPlan plan() const {
     StepPlan plan = plan_step(settings.time_step, settings.sub_steps * refinement(),
                               sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps),
