@@ -218,7 +218,7 @@ void check_ids(const BopSet& set, const std::vector<AuditHeap>& heaps, AuditFigu
 }
 
 Json audit_json(const BopSet& set, AuditFigures& figures, double share) {
-  Json json = {{"scenes", figures.scenes},   {"heaps", figures.heaps},         {"parts", figures.parts},
+  Json json = {{"scenes", figures.scenes},   {"heaps", figures.heaps},           {"parts", figures.parts},
                {"escaped", figures.escaped}, {"world_stated", set.world_stated}, {"exceeded", Json::array()},
                {"faults", figures.faults},   {"measures", Json::array()}};
   for (const AuditMeasure* measure : figures.all()) {
