@@ -149,7 +149,7 @@ void Publication::render(MadeScene& made, bool all, const RunHooks& hooks) {
     hooks.progress(progress);
   }
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.loaded, these, made.images);
+  rig_.render(made.scene, made.loaded, these, made.images, false);
 }
 
 Publication::Counts Publication::counts() const {
@@ -214,7 +214,7 @@ bool Publication::make_images(Shown& shown) {
   const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
   if (count == 0) return false;
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.loaded, missing, made.images);
+  rig_.render(made.scene, made.loaded, missing, made.images, false);
   renderings_ += count;
   return true;
 }

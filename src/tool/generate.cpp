@@ -205,6 +205,7 @@ int generate(const GenerateOptions& options) {
   std::optional<Tracing> trace;
   Generator::Options run;
   run.render = store.needs_images();
+  run.gray = store.needs_gray();
   run.grasps = store.needs_grasps();
   run.hooks.cancel = &interrupted;
   run.hooks.progress = [&](const Progress& progress) { bar.show(progress.fraction, text_of(progress)); };

@@ -116,6 +116,26 @@ class Bits(unittest.TestCase):
             self.assertGreater(images["grey16"].picture.max(), 255)
             self.assertIsNone(images["camera"].picture)
 
+    def test_grey_images_are_made_where_they_are_wanted(self):
+        from PIL import Image
+        light = {"name": "light", "preset": "structured_light_0.65m_590mm", "width": 64, "height": 48}
+        keys = nuts(3, sensors=[light, {"name": "camera", "width": 48, "height": 36}])
+        with tempfile.TemporaryDirectory() as folder, Generator() as g:
+            request = pathlib.Path(folder) / "request.yaml"
+            request.write_text(json.dumps(keys))
+            subprocess.run([TOOL, "generate", request, "--out", folder, "--formats", "gray"], check=True, capture_output=True)
+            without, images = next(g.generate(keys)).images, next(g.generate(keys, gray=True)).images
+            for name in ("light", "camera"):
+                written = np.asarray(Image.open(pathlib.Path(folder) / ("scene_000000/%s_gray.png" % name)))
+                np.testing.assert_array_equal(images[name].gray, written)
+                self.assertGreater(written.max(), 100)
+                np.testing.assert_array_equal(images[name].depth, without[name].depth)
+            self.assertIsNone(without["light"].gray)
+            heap = g.heap(keys)
+            heap.settle()
+            self.assertIsNone(heap.scene().images["light"].gray)
+            np.testing.assert_array_equal(heap.scene(gray=True).images["light"].gray, images["light"].gray)
+
     def test_grasps_are_those_of_the_file(self):
         keys = nuts(4, grippers=["robotiq_2f_85"])
         with tempfile.TemporaryDirectory() as folder, Generator() as g:

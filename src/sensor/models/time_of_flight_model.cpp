@@ -41,8 +41,12 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  const TimeOfFlightSetup setup{sensor.settings.of<TimeOfFlightSettings>(), sensor.noise, sensor.near, sensor.far,
-                                indirect_of(sensor)};
+  const TimeOfFlightSetup setup{sensor.settings.of<TimeOfFlightSettings>(),
+                                sensor.noise,
+                                sensor.near,
+                                sensor.far,
+                                indirect_of(sensor),
+                                draw.gray};
   Measurement measured = time_of_flight(scenery, view, surfaces, setup, random_of(draw), rays_of(draw));
   const bool noise = false;  // shot noise that fits noise of millimetres in depth is below a grey level
   return image_with_gray(std::move(view), std::move(measured), sensor, noise, draw);
@@ -56,7 +60,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 
 constexpr SensorModel model() {
   SensorModel m{"time_of_flight", "noise along the ray and across it", visit_keys, nullptr, nullptr, measured, sigma};
-  m.indirect = true;
+  m.indirect = m.gray = true;
   m.bounces = 1;
   return m;
 }
