@@ -343,7 +343,7 @@ void PathTracer::follow_lobes(Block& block, int bounce) const {
     const Eigen::Vector2d at = drawn(block, v, pair);
     const Lobe::Sample sample = Lobe(surface, v.normal, v.to_eye).at(at.x(), at.y());
     if (!(sample.factor > 0.0 && v.face.dot(sample.direction) > 0.0)) continue;
-    const Ray ray = {ray_between(v.position, v.face, v.position).origin, sample.direction, 0.0, 1e9};
+    const Ray ray = ray_along(v.position, v.face, sample.direction);
     const bool lamp_ahead = lamps_.flat_ahead(ray.origin, ray.direction, weight);
     if (!onward && !lamp_ahead && !lamps_.any_behind_all(weight)) continue;
     const Rgb path = times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte);
