@@ -47,6 +47,9 @@ class Image:
     @property
     def picture(self) -> Optional[Union[npt.NDArray[np.uint8], npt.NDArray[np.uint16]]]:
         """Of model `image`: (H, W) grey or (H, W, 3) red, green, blue; counts of its 8 or 16 bits. Else None."""
+    def channel(self, name: str) -> Optional[Union[npt.NDArray[np.uint8], npt.NDArray[np.uint16]]]:
+        """Counts of a channel as the files of format `png` hold it, such as "truth_depth": (H, W) or (H, W, 3). None if
+        the image has none. bin_scenes.Error for an unknown name."""
     @property
     def gray(self) -> Optional[npt.NDArray[np.uint8]]:
         """(H, W) levels of the grey image (docs/use/sensors.md). None for range sensors unless asked for by `gray`."""

@@ -5,6 +5,7 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
+#include "bin_scenes/output/image_channel.hpp"
 #include "heap_handle.hpp"
 #include "scene_data.hpp"
 #include "scene_stream.hpp"
@@ -135,6 +136,22 @@ py::object gray(py::object self) {
   return array_of(data.gray(), {data.image.height, data.image.width}, self);
 }
 
+/// As the files of the command line hold it; None where the image has no such channel.
+py::object channel(const ImageData& data, const std::string& name) {
+  const ImageChannel* found = find_image_channel(name);
+  if (!found) {
+    std::string known;
+    for (const ImageChannel& other : image_channels()) known += (known.empty() ? "" : ", ") + other.name;
+    throw input_error("an image has no channel of this name", name, "take one of " + known);
+  }
+  const Picture made = found->counts(data.image);
+  if (made.channels == 0) return py::none();
+  std::vector<py::ssize_t> shape = {found->height(data.image), found->width(data.image)};
+  if (made.channels > 1) shape.push_back(made.channels);
+  if (made.bits == 16) return copied(made.counts.data(), shape);
+  return copied(std::vector<std::uint8_t>(made.counts.begin(), made.counts.end()).data(), shape);
+}
+
 void bind_image(py::module_& m) {
   py::class_<ImageData, ImagePtr>(m, "Image")
       .def("__reduce__", no_pickle("Send arrays that you need of it, such as image.depth"))
@@ -163,6 +180,7 @@ void bind_image(py::module_& m) {
       .def_property_readonly("validity", measured(&RangeImage::validity))
       .def_property_readonly("picture", picture)
       .def_property_readonly("gray", gray)
+      .def("channel", channel, py::arg("name"))
       .def_property_readonly("points", cloud(&ImageData::points))
       .def_property_readonly("normals", cloud(&ImageData::normals))
       .def_property_readonly("truth_depth", truth(&RangeImage::truth_depth, &RangeImage::depth))

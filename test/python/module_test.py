@@ -92,6 +92,11 @@ class Bits(unittest.TestCase):
                 off = np.abs(image.truth_depth[seen] - counts[seen] * image.depth_scale)
                 self.assertLess(off.max(), 0.5 * image.depth_scale + 1e-6)
                 self.assertTrue((image.truth_label == np.asarray(Image.open(base + "_truth_labels.png"))).all())
+                for channel in "depth truth_depth truth_normal labels truth_labels snr validity".split():
+                    np.testing.assert_array_equal(image.channel(channel), np.asarray(Image.open(base + "_%s.png" % channel)))
+                self.assertIsNone(image.channel("image"), "a range sensor takes no picture")
+                with self.assertRaisesRegex(bin_scenes.Error, "truth_depth"):
+                    image.channel("truth")
 
     def test_pictures_have_the_counts_of_the_files(self):
         from PIL import Image
