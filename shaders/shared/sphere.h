@@ -189,7 +189,7 @@ struct SphereWorst {
 
 // The tasks of a world: steps to simulate, and what to observe (WatchAsk and WatchRules in solver/world_watch.hpp).
 struct SphereAsk {
-  uint steps, flags, observation;  // observation: its number; 0: none, or done
+  uint steps, flags, observation;  // observation: number of the requested observation; 0: none
   float seconds;
   uvec4 since;
   vec4 lower;       // m; w: rest_move, diagonals

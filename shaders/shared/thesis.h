@@ -89,7 +89,7 @@ struct ThesisState {
   vec4 spin;         // rad/s
 };
 
-struct ThesisInertia {  // inverse, world axes
+struct ThesisInertia {  // inverse inertia tensor in world axes
   vec4 diagonal;        // xx yy zz
   vec4 mixed;           // xy xz yz
 };

@@ -286,7 +286,7 @@ void visit_view(Visitor& v, Sensor& sensor) {
   v.field({"far", "m", "nothing farther is seen", above(0.0, 1e4)}, sensor.far);
 }
 
-/// Devices beside the camera's lens.
+/// Keys of the fidelity, and of the devices that a sensor has in addition to its camera, such as a projector.
 template <class Visitor>
 void visit_devices(Visitor& v, Sensor& sensor) {
   const std::string fidelity = users_of(&SensorModel::fidelity) +

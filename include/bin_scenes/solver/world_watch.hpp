@@ -35,7 +35,7 @@ struct WatchAsk {
   bool states = false;  ///< whether the states of the bodies are read as well
   /// For each of these observations, the bodies that moved in it or later are counted.
   std::array<std::uint32_t, 4> since{};
-  std::uint32_t rested = 0;  ///< bodies that moved after this observation are counted as well
+  std::uint32_t rested = 0;  ///< a further observation: the bodies that moved after it are counted as well
 };
 
 /// Counts of the movable bodies that are present.

@@ -38,7 +38,7 @@ INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {
     if (outside < 1e-5f) break;
   }
   float left = length(n);
-  if (left < least) return false;  // not the cosine of n / left: far outside, n may lie askew yet, and is short
+  if (left < least) return false;  // far outside the cone, n has become too short for a direction
   direction = n / left;
   return true;
 }
