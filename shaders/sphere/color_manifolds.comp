@@ -207,6 +207,9 @@ void main() {
   memoryBarrierBuffer();
   barrier();
   uint ordered = starts[LAST_COLOR] + members_in(LAST_COLOR);
+  FOR_OWN(o, ordered) note_length(world, o);
+  memoryBarrierBuffer();
+  barrier();
   FOR_OWN(o, ordered) take_rows(world, o);
   memoryBarrierBuffer();
   barrier();

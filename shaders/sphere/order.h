@@ -41,7 +41,7 @@ void count_colors() {
   }
 }
 
-// Manifold `index` of its color; its rows are given out later (take_rows, join_block).
+// Manifold `index` of its color; its rows are given out later (note_length, take_rows, join_block).
 void put_in_order(SphereWorld world, SpherePair pair, uint count, uint index) {
   uint block = block_of(pair.color), lane = index % block, stride = min(block, members_in(pair.color) - (index - lane));
   uint b = pair.b == SPHERE_GROUND ? SPHERE_GROUND_BODY : pair.b - world.bodies.x;
@@ -66,12 +66,16 @@ void put_last_in_order(SphereWorld world, uint list, uint count) {
   }
 }
 
-// When all are in order: the first manifold of a block takes rows for all of it, as many as that with most contacts has.
+// When all are in order: the first manifold of a block learns how many contacts that with most has.
+void note_length(SphereWorld world, uint o) {
+  uint at = world.pairs.x + o, kind = order[at].kind;
+  atomicMax(order[at - lane_of(kind)].row, count_of(kind));
+}
+
+// Then it takes as many rows for each of the block.
 void take_rows(SphereWorld world, uint o) {
-  uint at = world.pairs.x + o, stride = stride_of(order[at].kind), most = 0u;
-  if (lane_of(order[at].kind) != 0u) return;
-  for (uint lane = 0u; lane < stride; ++lane) most = max(most, count_of(order[at + lane].kind));
-  order[at].row = atomicAdd(row_top, SPHERE_ROW_PARTS * stride * most);
+  uint at = world.pairs.x + o, kind = order[at].kind;
+  if (lane_of(kind) == 0u) order[at].row = atomicAdd(row_top, SPHERE_ROW_PARTS * stride_of(kind) * order[at].row);
 }
 
 // When all blocks have rows.
