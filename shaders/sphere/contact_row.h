@@ -5,10 +5,19 @@
 
 // A body as one manifold sees it. All 0: it cannot move.
 struct Side {
-  vec3 v, w;
+  vec3 w;
   float inverse_mass;
   vec3 tensor, tensor_mixed;  // inverse inertia, world axes
 };
+
+// Both bodies of a manifold. Contacts need only the velocity of b relative to a, between the centres of mass: each impulse
+// changes one vector in place of two.
+struct Sides {
+  Side a, b;
+  vec3 between;  // m/s
+};
+
+float inverse_masses(Sides s) { return s.a.inverse_mass + s.b.inverse_mass; }
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
 
@@ -47,21 +56,19 @@ vec3 tangent_of(vec3 n) {
   return level ? vec3(-pair.y, pair.x, 0.0) : vec3(0.0, -pair.y, pair.x);
 }
 
-vec3 relative_velocity(Row row, Side a, Side b) {
-  return b.v + cross(b.w, row.rb) - a.v - cross(a.w, row.ra);
-}
+vec3 relative_velocity(Row row, Sides s) { return s.between + cross(s.b.w, row.rb) - cross(s.a.w, row.ra); }
 
-float mass_along(vec3 direction, Row row, Side a, Side b) {
+float mass_along(vec3 direction, Row row, Sides s) {
   vec3 ta = cross(row.ra, direction), tb = cross(row.rb, direction);
-  return effective_mass(a.inverse_mass + b.inverse_mass, ta, tensor_times(a, ta), tb, tensor_times(b, tb));
+  return effective_mass(inverse_masses(s), ta, tensor_times(s.a, ta), tb, tensor_times(s.b, tb));
 }
 
 // Masses from levers, normal and inertia; keeps what depends on where the bodies are.
-void keep_row(uint at, uint stride, Row row, float found_gap, Side a, Side b) {
+void keep_row(uint at, uint stride, Row row, float found_gap, Sides s) {
   vec3 t1 = tangent_of(row.normal), t2 = cross(row.normal, t1);
   // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
-  float tangent_mass = min(mass_along(t1, row, a, b), mass_along(t2, row, a, b));
-  rows[at] = vec4(row.normal, mass_along(row.normal, row, a, b));
+  float tangent_mass = min(mass_along(t1, row, s), mass_along(t2, row, s));
+  rows[at] = vec4(row.normal, mass_along(row.normal, row, s));
   rows[at + stride] = vec4(row.ra, tangent_mass);
   rows[at + 2u * stride] = vec4(row.rb, found_gap);
 }

@@ -24,23 +24,28 @@ Start start_of_body(uint body) {
 }
 
 Side starting_side(uint body) {
-  Side s = Side(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
-  if (body == SPHERE_GROUND || !moves(body)) return s;
-  return Side(tensors[body].velocity.xyz, tensors[body].spin.xyz, bodies[body].material.x, tensors[body].diagonal.xyz,
-              tensors[body].mixed.xyz);
+  if (body == SPHERE_GROUND || !moves(body)) return Side(vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+  return Side(tensors[body].spin.xyz, bodies[body].material.x, tensors[body].diagonal.xyz, tensors[body].mixed.xyz);
+}
+
+Sides starting_sides(Members of) {
+  Sides s = Sides(starting_side(of.a), starting_side(of.b), vec3(0.0));
+  if (s.b.inverse_mass > 0.0) s.between = tensors[of.b].velocity.xyz;
+  if (s.a.inverse_mass > 0.0) s.between -= tensors[of.a].velocity.xyz;
+  return s;
 }
 
 // Of a contact, when the step begins.
-float approach_of(Row row, float gap, Side a, Side b) {
-  float falls = float(b.inverse_mass > 0.0) - float(a.inverse_mass > 0.0);
-  return speed_at_impact(dot(relative_velocity(row, a, b), row.normal), gap, falls * dot(row.normal, world.gravity.xyz));
+float approach_of(Row row, float gap, Sides s) {
+  float falls = float(s.b.inverse_mass > 0.0) - float(s.a.inverse_mass > 0.0);
+  return speed_at_impact(dot(relative_velocity(row, s), row.normal), gap, falls * dot(row.normal, world.gravity.xyz));
 }
 
 // Of what cannot move: 0.
 float length_squared(Side side, vec3 lever) { return side.inverse_mass > 0.0 ? dot(lever, lever) : 0.0; }
 
 // With the force of the last step as impulse of a sub-step. Returns the contact's approach.
-float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Side a, Side b) {
+float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Sides s) {
   bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the field is a's
   Row row;
   row.ra = rotate(start_a.orientation, c.anchor_a);
@@ -48,13 +53,13 @@ float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start st
   row.normal = rotate(of_a ? start_a.orientation : start_b.orientation, c.normal.xyz);
   float gap = dot(start_b.position + row.rb - start_a.position - row.ra, row.normal);
   go_half_way(of_a, start_a.ahead, start_b.ahead, row.ra, row.rb, row.normal);
-  keep_row(at, stride, row, gap, a, b);
+  keep_row(at, stride, row, gap, s);
   float along = kept * plan.sub_step * c.force.x;
   vec3 friction = kept * plan.sub_step * c.force.yzw;
   impulses[at] = vec2(along, gap);
   keep_friction(at, stride, along > 0.0 ? friction - dot(friction, row.normal) * row.normal : vec3(0.0));
   keep_lasting(at, stride, along, false);
-  return approach_of(row, gap, a, b);
+  return approach_of(row, gap, s);
 }
 
 // Which contacts may press in the first sub-step. What is hit keeps all, and gets levers of where its bodies are now by
@@ -77,16 +82,16 @@ void prepare_manifold(uint o) {
   SphereOrdered m = order[world.pairs.x + o];
   Members of = bodies_of(world, m.bodies);
   Start start_a = start_of_body(of.a), start_b = start_of_body(of.b);
-  Side a = starting_side(of.a), b = starting_side(of.b);
+  Sides s = starting_sides(of);
   uint count = count_of(m.kind), stride = stride_of(m.kind), first = SPHERE_ROW_PARTS * world.rows.x + m.row;
   bool strikes = false;
   float arm_squared = 0.0, least_mass = NO_LIMIT;
   for (uint k = 0u; k < count; ++k) {
     uint at = first + SPHERE_ROW_PARTS * k * stride, contact = SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot) + k;
-    float approach = prepare_row(at, stride, contacts[contact], start_a, start_b, a, b);
+    float approach = prepare_row(at, stride, contacts[contact], start_a, start_b, s);
     contacts[contact].approach = approach;
     Row row = row_at(at, stride);
-    arm_squared = max(arm_squared, max(length_squared(a, row.ra), length_squared(b, row.rb)));
+    arm_squared = max(arm_squared, max(length_squared(s.a, row.ra), length_squared(s.b, row.rb)));
     least_mass = min(least_mass, row.normal_mass);
     strikes = strikes || approach <= -settings.restitution_speed;
   }
@@ -96,7 +101,7 @@ void prepare_manifold(uint o) {
   m.friction = friction_between(of);
   m.arm = sqrt(arm_squared);
   m.yield = yield_of(least_mass);
-  float reach = reach_of(b.v - a.v, a.w, b.w, m.arm);
+  float reach = reach_of(s.between, s.a.w, s.b.w, m.arm);
   find_first_near(first, stride, plan.sub_step * reach, strikes, m);
   order[world.pairs.x + o] = m;
 }

@@ -19,9 +19,8 @@ bool unconverged = false;
 #include "sphere/contact_sweep.h"
 
 // Inertia of manifolds that are refreshed is of where their bodies are now. What cannot move has neither speed nor inertia.
-Side side_of(uint i, bool refreshed) {
-  vec4 v = velocity_of(i);
-  Side s = Side(v.xyz, spin_of(i).xyz, v.w, vec3(0.0), vec3(0.0));
+Side side_of(uint i, float inverse_mass, bool refreshed) {
+  Side s = Side(spin_of(i).xyz, inverse_mass, vec3(0.0), vec3(0.0));
   if (s.inverse_mass == 0.0) return s;
   uint body = world.bodies.x + i;
   if (!refreshed) {
@@ -38,9 +37,10 @@ Side side_of(uint i, bool refreshed) {
   return s;
 }
 
-void keep_side(uint i, Side s) {
+// impulse: on the body, of all contacts together (N s).
+void keep_side(uint i, vec3 v, vec3 impulse, Side s) {
   if (s.inverse_mass == 0.0) return;
-  velocity_of(i) = vec4(s.v, s.inverse_mass);
+  velocity_of(i) = vec4(v + s.inverse_mass * impulse, s.inverse_mass);
   spin_of(i) = vec4(s.w, 1.0);  // a contact is near
 }
 
@@ -115,30 +115,30 @@ float gap_now(uint at, uint stride, Displacement a, Displacement b) {
 }
 
 // Levers, gap and masses of a contact that is hit, of where its bodies are now; returns the gap.
-float refresh_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Side a, Side b) {
+float refresh_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Sides s) {
   Row row = row_at(at, stride);
   vec3 on_a = pa.position + rotate(pa.orientation, c.anchor_a), on_b = pb.position + rotate(pb.orientation, c.anchor_b);
   float gap = dot(levers_now(pa.position, on_a, pb.position, on_b, row.ra, row.rb), row.normal);
-  keep_row(at, stride, row, found_gap_at(at, stride), a, b);
+  keep_row(at, stride, row, found_gap_at(at, stride), s);
   return gap;
 }
 
 // Gaps when bodies have moved, and which contacts may press from now on. What is hit keeps all.
-void observe(uint o, bool refreshed, Side a, Side b, inout Manifold m) {
+void observe(uint o, bool refreshed, Sides s, inout Manifold m) {
   Displacement by_a = displacement_of(m.a), by_b = displacement_of(m.b);
   Place pa = Place(vec3(0.0), vec4(0.0)), pb = pa;
   if (refreshed) {
     pa = place_of(m.a);
     pb = place_of(m.b);
   }
-  float reach = NEAR_REACH * plan.sub_step * reach_of(b.v - a.v, a.w, b.w, m.arm);
+  float reach = NEAR_REACH * plan.sub_step * reach_of(s.between, s.a.w, s.b.w, m.arm);
   bool all_may = has(m, SPHERE_STRIKES);
   uint near = 0u, count = count_of(m.kind), contact = refreshed ? first_contact(o) : 0u;
   m.slack = NO_LIMIT;
   for (uint k = 0u, at = m.row; k < count; ++k, at += SPHERE_ROW_PARTS * m.stride) {
     float gap;
     if (refreshed)
-      gap = refresh_row(at, m.stride, contacts[contact + k], pa, pb, a, b);
+      gap = refresh_row(at, m.stride, contacts[contact + k], pa, pb, s);
     else
       gap = gap_now(at, m.stride, by_a, by_b);
     impulses[at].y = gap;
@@ -150,16 +150,16 @@ void observe(uint o, bool refreshed, Side a, Side b, inout Manifold m) {
   keep_near(o, near, m);
 }
 
-void resist_turn(Manifold m, inout Side a, inout Side b) {
+void resist_turn(Manifold m, inout Sides s) {
   Patch area = open_patch(vec3(0.0));
   FOR_NEAR(at, m) gather(area, impulses[at].x, rows[at + m.stride].xyz, rows[at].xyz);
   if (area.impulse <= 0.0) return;
-  close_patch(area, a.w - b.w);
+  close_patch(area, s.a.w - s.b.w);
   FOR_NEAR(at, m) spread(area, impulses[at].x, rows[at + m.stride].xyz);
   float radius = settings.patch_radius * world.gravity.w;
   float arm = is_ball(world.bodies.x + m.a) || m.b != SPHERE_GROUND_BODY && is_ball(world.bodies.x + m.b) ? 0.0 : radius;
-  resist(area.normal, area.spin, most_against_spin(area, radius, friction_of(m)), a, b);
-  resist(area.tip_axis, area.tipping, most_against_tipping(area, radius, arm), a, b);
+  resist(area.normal, area.spin, most_against_spin(area, radius, friction_of(m)), s);
+  resist(area.tip_axis, area.tipping, most_against_tipping(area, radius, arm), s);
 }
 
 // The bodies approach each other too fast to leave out any contact in this sub-step.
@@ -168,46 +168,65 @@ void all_may_press(uint o, inout Manifold m) {
   keep_near(o, all_of(count_of(m.kind)), m);
 }
 
-void push_manifold(uint o, Give give, Manifold m, inout Side a, inout Side b) {
-  float reach = plan.sub_step * reach_of(b.v - a.v, a.w, b.w, m.arm), growth = plan.sub_step * m.yield;
+// The normal of a contact. Returns whether there may be friction.
+bool push_contact(uint o, uint at, Row row, Give give, inout float reach, inout Manifold m, inout Sides s) {
+  float change;
+  bool slides = solve_normal(at, m.stride, row, give, has(m, SPHERE_STRIKES), change, s);
+  reach += plan.sub_step * m.yield * abs(change);
   if (!(reach < m.slack)) all_may_press(o, m);
-  uint slides = 0u;  // a bit a contact
-  for (uint left = near_of(m.kind); left != 0u;) {
-    float change;
-    uint done = left ^ left - 1u;  // contacts up to this one
-    if (solve_normal(row_of(m, left), m.stride, give, has(m, SPHERE_STRIKES), change, a, b)) slides |= left & done;
-    reach += growth * abs(change);
-    if (!(reach < m.slack)) all_may_press(o, m);
-    left = near_of(m.kind) & ~done;
+  return slides;
+}
+
+// All normals, then all friction. Most manifolds have one contact that presses: the row of the first one stays in
+// registers between the two.
+void push_manifold(uint o, Give give, Manifold m, inout Sides s) {
+  float reach = plan.sub_step * reach_of(s.between, s.a.w, s.b.w, m.arm);
+  if (!(reach < m.slack)) all_may_press(o, m);
+  uint left = near_of(m.kind), slides = 0u;  // a bit a contact
+  if (left == 0u) return;
+  uint first = row_of(m, left), done = left ^ left - 1u;  // contacts up to this one
+  Row row = row_at(first, m.stride);
+  bool first_slides = push_contact(o, first, row, give, reach, m, s);
+  while ((left = near_of(m.kind) & ~done) != 0u) {
+    done = left ^ left - 1u;
+    uint at = row_of(m, left);
+    if (push_contact(o, at, row_at(at, m.stride), give, reach, m, s)) slides |= left & done;
   }
-  for (float friction = friction_of(m); slides != 0u; slides &= slides - 1u)
-    solve_friction(row_of(m, slides), m.stride, friction, a, b);
+  float friction = friction_of(m);
+  if (first_slides) solve_friction(first, m.stride, row, friction, s);
+  for (; slides != 0u; slides &= slides - 1u) {
+    uint at = row_of(m, slides);
+    solve_friction(at, m.stride, row_at(at, m.stride), friction, s);
+  }
 }
 
 // What a manifold does in sweeps other than those that merely repeat the one before. Few loops: on llvmpipe each costs a
 // turn even where it is not run, and an invocation has 65,535.
-void begin_sweep(uint o, uint kind, bool refreshed, inout Manifold m, inout Side a, inout Side b) {
-  if (kind == SWEEP_FIRST_RELAX || refreshed && kind == SWEEP_WARM_START && first_sub_step) observe(o, refreshed, a, b, m);
-  if (kind == SWEEP_FIRST_PUSH) resist_turn(m, a, b);
+void begin_sweep(uint o, uint kind, bool refreshed, inout Manifold m, inout Sides s) {
+  if (kind == SWEEP_FIRST_RELAX || refreshed && kind == SWEEP_WARM_START && first_sub_step) observe(o, refreshed, s, m);
+  if (kind == SWEEP_FIRST_PUSH) resist_turn(m, s);
   if (kind != SWEEP_WARM_START && !(kind == SWEEP_BOUNCE && has(m, SPHERE_BOUNCES))) return;
   uint contact = first_contact(o);
   FOR_NEAR(at, m) {
     float approach = contacts[contact + uint(findLSB(left))].approach;
     if (kind == SWEEP_WARM_START)
-      warm_start(at, m.stride, has(m, SPHERE_RESTITUTES) && strikes(approach), a, b);
+      warm_start(at, m.stride, has(m, SPHERE_RESTITUTES) && strikes(approach), s);
     else
-      bounce(at, m.stride, restitution_of(members_at(o)), approach, a, b);
+      bounce(at, m.stride, restitution_of(members_at(o)), approach, s);
   }
 }
 
 void solve_manifold(uint o, uint kind, Give give) {
   Manifold m = manifold_at(o);
   bool refreshed = has(m, SPHERE_REFRESHED);
-  Side a = side_of(m.a, refreshed), b = side_of(m.b, refreshed);
-  if (kind >= SWEEP_FIRST_PUSH) begin_sweep(o, kind, refreshed, m, a, b);
-  if (kind <= SWEEP_FIRST_RELAX) push_manifold(o, give, m, a, b);
-  keep_side(m.a, a);
-  keep_side(m.b, b);
+  vec4 va = velocity_of(m.a), vb = velocity_of(m.b);
+  vec3 between = vb.xyz - va.xyz;
+  Sides s = Sides(side_of(m.a, va.w, refreshed), side_of(m.b, vb.w, refreshed), between);
+  if (kind >= SWEEP_FIRST_PUSH) begin_sweep(o, kind, refreshed, m, s);
+  if (kind <= SWEEP_FIRST_RELAX) push_manifold(o, give, m, s);
+  vec3 impulse = 1.0 / inverse_masses(s) * (s.between - between);
+  keep_side(m.a, va.xyz, -impulse, s.a);
+  keep_side(m.b, vb.xyz, impulse, s.b);
 }
 
 // Whether a contact of the manifold is to bounce.
