@@ -82,7 +82,7 @@ const Mechanism mechanisms[] = {
     {"speculation", "contacts within the margin alone", [](Variant& v) { v.settings.speculation = false; }},
     {"soonest first", "eight contacts of a pair by depth and spread",
      [](Variant& v) { v.settings.soonest_first = false; }},
-    {"half-way poses", "contacts where a step begins", [](Variant& v) { v.settings.half_way_poses = false; }},
+    {"half-way poses", "contacts where a step begins", [](Variant& v) { v.settings.poses_at_contact_time = false; }},
     {"cut steps", "whole steps for fast and small parts", [](Variant& v) { v.settings.cut_steps = false; }},
     // Solving them.
     {"warm start", "a step begins without forces", [](Variant& v) { v.settings.warm_start = false; }},

@@ -66,7 +66,7 @@ class Generator:
 
     def generate(self, request: Request, *, scenes: Optional[int] = None, seed: Optional[int] = None,
                  first: Optional[int] = None, prefetch: int = 0, images: bool = True, grasps: bool = False,
-                 **overrides: Any) -> "_core.Scenes":
+                 gray: bool = False, **overrides: Any) -> "_core.Scenes":
         """Scenes of a request, in order of their index: an iterator of Scene.
 
         request:   name of a YAML file, or a dict of the same keys; a dict may hold arrays, for instance
@@ -76,6 +76,7 @@ class Generator:
         prefetch:  scenes made ahead at most, in the background, while the loop's body runs; 0: none
         images:    False: no sensor image is made
         grasps:    True: Scene.grasps are found, for the request's grippers
+        gray:      True: range sensors make Image.gray as well, which takes up to a fifth more of their time
         overrides: further keys, as `--set` has them, which replace what the request says: bin={"floor": True},
                    solver__type="bullet" (or **{"solver.type": "bullet"}), parts__0__count=20
 
@@ -84,7 +85,8 @@ class Generator:
         if not isinstance(prefetch, (int, np.integer)) or not 0 <= prefetch <= 1000:
             raise Error("prefetch is %r" % (prefetch,), "Generator.generate", "give 0 to 1000 scenes")
         self._session.refuse_if_closed()
-        wanted = [_flag(images, "images", "Generator.generate"), _flag(grasps, "grasps", "Generator.generate")]
+        wanted = [_flag(images, "images", "Generator.generate"), _flag(grasps, "grasps", "Generator.generate"),
+                  _flag(gray, "gray", "Generator.generate")]
         return self._session.generate(read(request, scenes=scenes, seed=seed, first=first, **overrides), int(prefetch), *wanted)
 
     def heap(self, request: Request, *, seed: Optional[int] = None, first: Optional[int] = None, **overrides: Any) -> "Heap":
@@ -139,7 +141,8 @@ class Heap:
                         "give at most %g, as in a request" % MOST_GRAVITY)
         self._heap.set_gravity(vector)
 
-    def scene(self, images: bool = True, grasps: bool = False) -> "_core.Scene":
+    def scene(self, images: bool = True, grasps: bool = False, gray: bool = False) -> "_core.Scene":
         """The heap as it is now, judged, and seen by the request's sensors unless `images` is False. With `grasps` of the
-        request's grippers."""
-        return self._heap.scene(_flag(images, "images", "Heap.scene"), _flag(grasps, "grasps", "Heap.scene"))
+        request's grippers, and with Image.gray if `gray`."""
+        return self._heap.scene(_flag(images, "images", "Heap.scene"), _flag(grasps, "grasps", "Heap.scene"),
+                                _flag(gray, "gray", "Heap.scene"))

@@ -77,20 +77,24 @@ class Sample:
             return read_png(self.raw("image.png"))
         return self.rgb if "rgb.png" in self._files else self.gray
 
+    def channel(self, name):
+        """Counts of a channel by its name (see "Channels" of docs/use/outputs.md): (rows, columns[, 3]), uint8 or uint16."""
+        return read_png(self.raw(name + ".png"))
+
     @property
     def snr(self):
         """Signal over the noise that the sensor's model predicts, float32, to 0.05; 0 where nothing was measured."""
-        return read_png(self.raw("snr.png")).astype(np.float32) / np.float32(10)
+        return self.channel("snr").astype(np.float32) / np.float32(10)
 
     @property
     def labels(self):
         """What is truly seen, measured or not: 0 background and bin, id + 1 a part; uint16."""
-        return read_png(self.raw("truth_labels.png"))
+        return self.channel("truth_labels")
 
     @property
     def normals(self):
         """(rows, columns, 3), float32: true normals towards the camera, to 1/127; NaN where there is nothing."""
-        counts = read_png(self.raw("truth_normal.png"))
+        counts = self.channel("truth_normal")
         normals = counts.astype(np.float32) / np.float32(127.5) - 1
         normals[~counts.any(-1)] = np.nan
         return normals

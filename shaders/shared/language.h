@@ -32,9 +32,9 @@
 #define OR ||
 #define all_lanes(x) (x)
 float select(bool condition, float yes, float no) { return condition ? yes : no; }
-// By the transpose: back out of the frame that m carries into.
+// Rotates a vector by the transpose of m: from the frame into which m rotates back to the original one.
 vec3 turned_back(mat3 m, vec3 v) { return v * m; }
-// Of 0: 0.
+// The unit vector along v; 0 if v is 0.
 vec3 unit(vec3 v) {
   float size = length(v);
   return size > 0.0 ? v / size : v;

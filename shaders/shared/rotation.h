@@ -1,4 +1,5 @@
-// Functions for quaternions (x, y, z, w) and for the inertia of rigid bodies in GLSL.
+// Functions for quaternions (x, y, z, w) and for the inertia of rigid bodies in GLSL. A rotation vector has the
+// direction of the axis and the length of the angle (rad). The C++ side uses Eigen and solver/sphere/math.hpp instead.
 #ifndef SHARED_ROTATION_H
 #define SHARED_ROTATION_H
 vec4 quat_multiply(vec4 a, vec4 b) {

@@ -133,8 +133,6 @@ struct SphereSettingsBlock {
   uint cut_steps;          // 1: steps are shortened for fast parts
   float probe_slip;        // s without friction at the start of a step that begins without forces
   float touch_move;        // in diagonals: rest_move if bodies sleep by touch
-  float tolerance;         // diagonals per second: a contact is solved when a sweep changes its speed by no more than
-                           // this
   vec4 softness[3];        // by Stiffness: rate (as a share of the sub-step rate), damping ratio, slop (diagonals),
                            // sub-steps in place of one
 };
@@ -147,6 +145,8 @@ struct SphereWorld {
                   // impact, w otherwise
   vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height of the walls (m); w: thickness of the thinnest part (m)
+  vec4 tolerance; // m/s: a contact is solved when a sweep changes its speed by no more than this; x in a step without
+                  // an impact, y with one
 };
 
 // The state of a world between steps. The host reads it every few steps.
@@ -378,7 +378,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 96, "std430");
 static_assert(sizeof(SphereProgress) == 160, "std430");
 static_assert(sizeof(SphereWorst) == 32 && sizeof(SphereAsk) == 80 && sizeof(SphereSeen) == 32, "std430");
 static_assert(sizeof(SphereWatched) == 128 && sizeof(SphereAudit) == 48, "std430");

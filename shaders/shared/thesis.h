@@ -94,7 +94,7 @@ struct ThesisInertia {  // inverse, world axes
   vec4 mixed;           // xy xz yz
 };
 
-struct ThesisShape {  // a sphere in its part
+struct ThesisShape {  // one sphere of a part's collision shape
   vec4 center;        // principal axes, from the centre of mass; w: radius
   vec4 normal;        // true surface's, principal axes; w: 1 on a face, 0 on edges and corners
 };
@@ -127,14 +127,14 @@ struct ThesisPush {  // sum over a sphere's contacts
 
 struct ThesisNeighbour {
   uint key;    // body, or THESIS_NODE | sheet
-  uint count;  // of contacts, less one: a table is emptied by filling it with ones
+  uint count;  // number of contacts minus one, so that filling the table with ones empties it
 };
 
 struct ThesisStatus {
   uint touching_spheres, touching_bodies, slots;  // of this step
   uint overflow;         // bits, kept until the host has seen them
   uint contacts;         // summed over steps
-  uint most_slots;       // asked for in a step, up to the first step that found too few
+  uint most_slots;       // most slots that a step needed, counted up to the first step that had too few
   uint unused_a, unused_b;
   uvec4 sphere_groups;   // arguments of the dispatches over touching spheres ...
   uvec4 body_groups;     // ... and touching bodies

@@ -1,2 +1,3 @@
-// Whether a body is a ball, one node of its own radius. Needs the bindings Bodies and Shapes.
+// Determines whether a body is a ball: its shape is one node with a radius. A ball is tested by a closed form instead
+// of by samples. Needs the bindings Bodies and Shapes.
 bool is_ball(uint body) { return body != SPHERE_GROUND && shapes[bodies[body].ids.x].field.z > 0.0; }

@@ -1,4 +1,5 @@
-// Bodies as the passes see them. Needs the bindings Bodies and States.
+// Functions that read a body as the passes need it: pose, velocity, mass and whether it moves. Needs the bindings
+// Bodies and States.
 #include "shared/rotation.h"
 
 bool present(uint body) { return (states[body].flags.x & SPHERE_PRESENT) != 0u; }

@@ -1,4 +1,5 @@
-// Upright boxes of bodies. Needs the bindings Settings, Bodies, States, Shapes, Planes, sphere/body.h,
+// Upright boxes: the boxes of bodies along the axes of the world, enlarged by the distance that the surface may move in
+// a step (reach(), sphere/pair.h). Needs the bindings Settings, Bodies, States, Shapes, Planes, sphere/body.h,
 // sphere/pair.h and sphere/oriented_box.h.
 
 SphereTensor tensor_of(uint body) {

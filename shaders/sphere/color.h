@@ -1,5 +1,5 @@
-// Colors of manifolds: what one invocation does with one of them. Whoever includes this says where lowest_of(i),
-// used_low_of(i) and used_high_of(i) lie, i counted in the world: the lowest key among the uncolored manifolds of a body,
+// Assigns colors to manifolds: the work of one invocation on one manifold. The includer defines lowest_of(i),
+// used_low_of(i) and used_high_of(i) for body i of the world: the lowest key among the uncolored manifolds of the body,
 // and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, Manifolds, and sphere/body.h.
 const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = SPHERE_NO_COLOR;
 const uint LAST_COLOR = SPHERE_COLORS - 1u;  // any number of manifolds, solved one by one

@@ -1,5 +1,5 @@
-// How far apart the points of a contact are, and how they come near. Needs the bindings States, Manifolds and Contacts,
-// and sphere/body.h.
+// The distance between the two points of a contact at the present poses, and the speed at which it decreases. Needs the
+// bindings States, Manifolds and Contacts, and sphere/body.h.
 
 // Where the bodies are.
 vec3 normal_of(SphereContact c, SpherePair pair) {

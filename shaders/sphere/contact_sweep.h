@@ -1,5 +1,5 @@
-// What a sweep of the solve does with one contact. Twin: contact_rows.hpp, friction.hpp, restitution.hpp. Needs
-// sphere/contact_row.h, sphere/solve_step.h, `unconverged`, and the binding Settings.
+// The work of one sweep of the solve on one contact: normal impulse and friction. Twin: contact_rows.hpp, friction.hpp,
+// restitution.hpp. Needs sphere/contact_row.h, sphere/solve_step.h, `unconverged`, and the binding Settings.
 #include "shared/sphere/patch.h"
 
 void apply(Row row, vec3 impulse, inout Sides s) {

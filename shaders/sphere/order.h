@@ -1,5 +1,5 @@
 // The order in which manifolds are solved: by color, of a color those that need most visits of contacts first, so that
-// neighbours, which wait for one another, need about as many. Whoever includes this says where lie members_of(k), the
+// neighbours, which wait for one another, need about as many. The includer defines members_of(k), the
 // number of manifolds of a color and a number of visits (k = kind_of()) and later where the next of them goes;
 // members_in(c), that of a color; start_of(c), where it begins; row_top, the vec4 of rows given out so far; longest_visits, the
 // sum over blocks of their longest. Needs the

@@ -1,9 +1,10 @@
-// What the words of a SphereOrdered say.
+// Packs and unpacks the words of a SphereOrdered (shared/sphere.h): the two bodies of a manifold, its flags, and the
+// numbers of its contacts.
 uint pack_bodies(uint a, uint b) { return a | b << 16; }
 uint first_of_bodies(uint bodies) { return bodies & 0xffffu; }
 uint second_of_bodies(uint bodies) { return bodies >> 16; }
 
-// Before rows are given out, the place in its block stands where flags will.
+// Before rows are assigned, the bits of the flags hold the position of a manifold in its block.
 uint lane_of(uint kind) { return kind & 0xffu; }
 uint without_lane(uint kind) { return kind & ~0xffu; }
 uint pack_kind(uint flags, uint count, uint stride, uint near) { return flags | count << 8 | stride << 12 | near << 24; }

@@ -1,4 +1,5 @@
-// Whether the boxes of two bodies meet. Needs the bindings Bodies, States, Shapes, and sphere/body.h.
+// Determines whether the oriented bounding boxes of two bodies intersect, by the separating-axis test. Needs the
+// bindings Bodies, States, Shapes, and sphere/body.h.
 
 struct Box {
   vec4 center;     // w: margin

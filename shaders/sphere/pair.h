@@ -1,4 +1,6 @@
-// Pairs of bodies: how near is near. Needs the bindings Settings, Bodies, States, Shapes.
+// Geometry of pairs: the distance that the surface of a body may move in one step, within which contacts are searched
+// ahead; the relative pose of two bodies; and the size of the smaller one. Needs the bindings Settings, Bodies, States,
+// Shapes.
 
 float time_step;  // s, of this step
 

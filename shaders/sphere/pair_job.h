@@ -1,10 +1,10 @@
-// What is to be done about a listed pair. Needs the bindings Settings, Progress, Manifolds, Contacts, Jobs, and
-// sphere/pair.h.
+// Decides whether a listed pair keeps its contacts (recycling) or has them found anew, and puts the pairs of the second
+// kind on the list of jobs. Needs the bindings Settings, Progress, Manifolds, Contacts, Jobs, and sphere/pair.h.
 #include "shared/language.h"
 #include "shared/sphere/choice.h"
 #include "sphere/contact_gap.h"
 
-// What becomes of the contacts of a pair.
+// Fates of the contacts of a pair.
 const uint FIND_ANEW = 0u, RECYCLE = 1u, RECYCLE_UNLESS_IT_STRIKES = 2u;
 
 float recycle_limit(SpherePair pair, bool fine) {

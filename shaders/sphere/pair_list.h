@@ -1,4 +1,5 @@
-// Where the lists of pairs lie. Needs the binding Ranges.
+// The positions of the lists of pairs of a world in their buffers. Each world has two lists, one of this step and one
+// of the last step, which take turns. Needs the binding Ranges.
 
 const uint NO_SLOT = 0xffffffffu;  // of a manifold, yet
 

@@ -1,4 +1,5 @@
-// What two bodies of a manifold have in common. Needs the binding Bodies, `world` and sphere/ordered.h.
+// Friction and restitution of a manifold, combined from those of its two bodies. Needs the binding Bodies, `world` and
+// sphere/ordered.h.
 float friction_between(Members m) {
   return sqrt(bodies[m.a].material.y * (m.b == SPHERE_GROUND ? world.ground.x : bodies[m.b].material.y));
 }

@@ -1,4 +1,5 @@
-// The plan of the step that world w is in. Twin: World::plan(). Needs the bindings Settings and Progress.
+// The plan of the present step of world w: numbers of sub-steps and sweeps (shared/sphere/plan.h). Twin: World::plan().
+// Needs the bindings Settings and Progress.
 #include "shared/language.h"
 #include "shared/sphere/plan.h"
 

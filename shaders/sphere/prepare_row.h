@@ -1,6 +1,7 @@
-// Rows and impulses of a manifold's contacts when a step begins. Needs the bindings Settings, Progress, Bodies, States,
-// Shapes, Tensors, Contacts, Order, Rows, Impulses, sphere/body.h, sphere/solve_step.h, and sphere/contact_row.h. Twin:
-// prepare().
+// Prepares the contacts of a manifold at the beginning of a step: their rows (lever arms, effective masses) and their
+// initial impulses, which are those of the last step. Twin: prepare(). Needs the bindings Settings, Progress, Bodies,
+// States, Shapes, Tensors, Contacts, Order, Rows, Impulses, sphere/body.h, sphere/solve_step.h, and
+// sphere/contact_row.h.
 #include "shared/sphere/row.h"
 #include "sphere/near.h"
 #include "sphere/ordered.h"
@@ -19,7 +20,7 @@ Start start_of_body(uint body) {
   if (body == SPHERE_GROUND) return s;
   s.position = states[body].position.xyz;
   s.orientation = tensors[body].orientation;
-  if (moves(body)) s.ahead = Ahead(plan.half_way * tensors[body].velocity.xyz, plan.half_way * tensors[body].spin.xyz);
+  if (moves(body)) s.ahead = Ahead(plan.contact_time * tensors[body].velocity.xyz, plan.contact_time * tensors[body].spin.xyz);
   return s;
 }
 
@@ -52,7 +53,7 @@ float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start st
   row.rb = rotate(start_b.orientation, c.anchor_b);
   row.normal = rotate(of_a ? start_a.orientation : start_b.orientation, c.normal.xyz);
   float gap = dot(start_b.position + row.rb - start_a.position - row.ra, row.normal);
-  go_half_way(of_a, start_a.ahead, start_b.ahead, row.ra, row.rb, row.normal);
+  move_to_contact_time(of_a, start_a.ahead, start_b.ahead, row.ra, row.rb, row.normal);
   keep_row(at, stride, row, gap, s);
   float along = kept * plan.sub_step * c.force.x;
   vec3 friction = kept * plan.sub_step * c.force.yzw;

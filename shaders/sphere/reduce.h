@@ -1,5 +1,6 @@
-// The few candidates of one pair that become contacts. Needs the bindings Settings, Progress, States, Manifolds,
-// Contacts, Jobs, Candidates, world_index, samples_of() and placement_of().
+// Selects the candidates of one pair that become contacts, at most eight, by the rule of shared/sphere/choice.h. Twin:
+// reduce.hpp. Needs the bindings Settings, Progress, States, Manifolds, Contacts, Jobs, Candidates, world_index,
+// samples_of() and placement_of().
 
 #include "shared/sphere/choice.h"
 
@@ -96,7 +97,7 @@ bool is_better(uint key, uint feature, uint best_key, uint best) {
   return key > best_key || key == best_key && key > 0u && feature < candidates[best].feature;
 }
 
-// The few candidates that stand for all (shared/sphere/choice.h).
+// The few candidates that represent all (shared/sphere/choice.h).
 uint reduce(float size, float soon) {
   uint key = 0u, best = 0u;
   FOR_OWN_CANDIDATES(at) {

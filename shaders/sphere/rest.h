@@ -1,6 +1,8 @@
-// Rest of a body of world `w`. Needs the bindings Settings, Progress, Bodies, States, Shapes and sphere/body.h.
+// Determines whether a body of world `w` is at rest, which means that its pose has changed by less than a limit during
+// the rest window, and puts bodies to sleep or wakes them. Needs the bindings Settings, Progress, Bodies, States,
+// Shapes and sphere/body.h.
 
-bool moved_lately(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
+bool moved_recently(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
 
 // Whether it moved on in this step: bodies that are woken by touch have not, unless they go.
 bool went_on(uint body) { return moves(body) && states[body].still_position.w == 0.0; }

@@ -1,11 +1,11 @@
-// The samples of one body of a pair as another body's field sees them. Needs the bindings Settings, Worlds, Progress,
-// Bodies, States, Shapes, Nodes, Edges, Fields, Jobs, Candidates.
+// The samples of one body of a pair in the frame of the other body's distance field, as shared/sphere/touch.h needs
+// them. Needs the bindings Settings, Worlds, Progress, Bodies, States, Shapes, Nodes, Edges, Fields, Jobs, Candidates.
 #include "sphere/step_of_pair.h"
 #include "sphere/field.h"
 #include "sphere/samples.h"
 #include "sphere/emit.h"
 
-// Where the samples of one body lie in the frame of the field, and what is found there in the frame of a.
+// The pose of one body's samples in the frame of the field, and of the results in the frame of a.
 struct View {
   Samples samples, other;
   Field own, field;
@@ -23,7 +23,7 @@ struct Drift {
 };
 
 Drift drift_of(uint points, Placement at, uint over, Placement frame) {
-  float rest = time_step - plan.half_way + plan.sub_step;  // the last sweeps look as far ahead as another one
+  float rest = time_step - plan.contact_time + plan.sub_step;  // the last sweeps look as far ahead as another one
   vec3 v = vec3(0.0), w = vec3(0.0), frame_v = vec3(0.0), frame_w = vec3(0.0);
   vec3 fall = time_step * worlds[world_index].gravity.xyz;
   if (moves(points)) {

@@ -1,4 +1,5 @@
-// The samples of one part as shared/sphere reads them. Needs sphere/field.h and the bindings Nodes and Edges.
+// Provides the samples of one part in the form that the code of shared/sphere reads: nodes, edges and their normal
+// cones. Needs sphere/field.h and the bindings Nodes and Edges.
 #include "shared/language.h"
 
 #define Samples SphereSamples
@@ -45,7 +46,7 @@ struct Range {
 uint edge_word(uint first, uint i) { return edges[first + i / 4u][i & 3u]; }
 uint listed_edge(Samples samples, uint k) { return edge_word(samples.blocks.y, k); }
 
-// What is listed of the edges that lie near a point.
+// The list of the edges near a point.
 Range edges_near(Samples samples, Field field, vec3 point) {
   if (field.ball > 0.0) return Range(0u, 0u);
   vec3 g = clamp((point - field.origin) * field.inverse_cell, vec3(0.0), field.most);  // also of NaN

@@ -83,6 +83,7 @@ bool any_unconverged(uint sweeps) {
 
 void begin_sub_step(uint w, int k) {
   take_sub_step_of(w, uint(k));
+  tolerance = any_impact != 0u ? world.tolerance.y : world.tolerance.x;
   FOR_OWN_BODIES(i) integrate_velocity(i, plan.sub_step);
   barrier();
 }

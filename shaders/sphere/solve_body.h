@@ -1,4 +1,4 @@
-// Bodies in the solve: what one invocation does with one of them; velocities lie where sphere/solve_manifold.h says.
+// Bodies in the solve: the work of one invocation on one body. Velocities are stored as sphere/solve_manifold.h states.
 // Needs the bindings Settings, Progress, Bodies, Shapes, States and sphere/body.h.
 #include "sphere/solve_step.h"
 

@@ -1,4 +1,4 @@
-// Manifolds in the solve: what one invocation does with one of them. Whoever includes this says where velocities lie:
+// Manifolds in the solve: the work of one invocation on one manifold. The includer defines where velocities are stored:
 // velocity_of(i) (w: inverse mass, 0 = nothing moves it in this step), spin_of(i) (w: 1 = a contact is near), moved_of(i)
 // (since contacts were found; w: speed when the sub-step began), turned_of(i) (rotation vector, since then; w: 1 = a
 // contact slips), i counted in the world. Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors,
@@ -86,7 +86,7 @@ uint first_contact(uint o) { return SPHERE_MAX_CONTACTS * (world.pairs.x + order
 #define FOR_CONTACTS(at, contact, m, o)                                                             \
   for (uint at = m.row, contact = first_contact(o), end_contact = contact + count_of(m.kind); contact < end_contact; \
        at += SPHERE_ROW_PARTS * m.stride, ++contact)
-// Rows of the contacts that may press. Each invocation goes from one to the next.
+// Rows of the contacts that may press. Each invocation processes them one by one.
 #define FOR_NEAR(at, m)                                                            \
   for (uint left = near_of(m.kind), at = row_of(m, left); left != 0u; \
        left &= left - 1u, at = row_of(m, left))

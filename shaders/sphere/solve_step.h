@@ -1,4 +1,5 @@
-// What holds for a sub-step of the solve. Needs the bindings Settings and Progress.
+// Values that are constant during a sub-step of the solve: the compliance of contacts, the shares of friction and of
+// remembered forces that apply, and the tolerance of convergence. Needs the bindings Settings and Progress.
 #include "shared/language.h"
 #include "shared/sphere/contact.h"
 #include "sphere/plan.h"
@@ -19,7 +20,6 @@ void take_sub_step_of(uint w, uint k) {
   softly_now = softly(plan.sub_step, softness.x, softness.y, softness.z * size, settings.push_speed / softness.w * size);
   firmly_now = firmly(plan.sub_step);
   first_sub_step = k == 0u;
-  tolerance = settings.tolerance * size;
   friction_share = int(k) < plan.slip_sub_steps ? 0.0 : progress[w].friction_share;
   kept = progress[w].forgets != 0u ? 0.0 : 1.0;
 }

@@ -1,6 +1,7 @@
-// How fast a body is. Needs sphere/body.h and the binding Shapes.
+// The speed of a body: the highest speed of any point of its surface (m/s), and its speed of rotation (rad/s). Needs
+// sphere/body.h and the binding Shapes.
 
-// Highest speed (m/s) of the surface of a body, and how fast it turns (rad/s).
+// Highest speed (m/s) of the surface of a body, and its angular speed (rad/s).
 vec2 speeds_of(uint body) {
   float turn = length(states[body].spin.xyz);
   return vec2(length(states[body].velocity.xyz) + turn * shapes[bodies[body].ids.x].box_center.w, turn);

@@ -1,4 +1,4 @@
-// What all that is done about a pair in one step goes by. Needs the bindings Settings, Worlds, Progress, Bodies, States,
+// The values that all work on a pair in one step uses. Needs the bindings Settings, Worlds, Progress, Bodies, States,
 // Shapes.
 #include "sphere/body.h"
 #include "sphere/pair.h"
@@ -24,4 +24,4 @@ SphereSamples samples_of(uint body) {
 }
 
 // Of a body of this world.
-Placement placement_of(uint body) { return placement_of(body, plan.half_way); }
+Placement placement_of(uint body) { return placement_of(body, plan.contact_time); }

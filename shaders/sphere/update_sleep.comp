@@ -1,6 +1,6 @@
 // One group a world: an island of bodies joined by pressing contacts sleeps when all of them stayed where they are for
 // the rest window; a moving body that presses on a sleeping one wakes the whole island. Labels spread over manifolds to
-// the lowest body of each island; walls and fixed bodies join nothing. By part a body that moved lately keeps only
+// the lowest body of each island; walls and fixed bodies join nothing. By part a body that moved recently keeps only
 // itself and those that press on it awake; by touch one that moves on wakes all that have contacts with it. Ends the
 // step. Twin: update_sleep().
 #include "shared/sphere.h"
@@ -23,11 +23,11 @@ layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob
 #include "sphere/no_jobs.h"
 
 shared uint label[SPHERE_MAX_BODIES];
-shared uint motion[SPHERE_MAX_BODIES];      // MOVED_LATELY, WENT_ON
+shared uint motion[SPHERE_MAX_BODIES];      // MOVED_RECENTLY, WENT_ON
 shared uint kept_awake[SPHERE_MAX_BODIES];  // 1: itself, or its island; all write the same
 shared uint changed[2];                     // take turns
 
-const uint MOVED_LATELY = 1u, WENT_ON = 2u;
+const uint MOVED_RECENTLY = 1u, WENT_ON = 2u;
 
 // While others may lower it.
 uint label_now(uint i) { return atomicOr(label[i], 0u); }
@@ -43,7 +43,7 @@ void main() {
     uint body = world.bodies.x + i;
     if (moves(body)) note_motion(body, w);
     label[i] = i;
-    motion[i] = (moved_lately(body) ? MOVED_LATELY : 0u) | (went_on(body) ? WENT_ON : 0u);
+    motion[i] = (moved_recently(body) ? MOVED_RECENTLY : 0u) | (went_on(body) ? WENT_ON : 0u);
     kept_awake[i] = 0u;
   }
   if (thread < 2u) changed[thread] = 0u;
@@ -59,7 +59,7 @@ void main() {
       if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) continue;
       uint a = pair.a - world.bodies.x, b = pair.b - world.bodies.x;
       if (by_part || by_touch) {
-        if (((motion[a] | motion[b]) & (by_touch ? WENT_ON : MOVED_LATELY)) != 0u) kept_awake[a] = kept_awake[b] = 1u;
+        if (((motion[a] | motion[b]) & (by_touch ? WENT_ON : MOVED_RECENTLY)) != 0u) kept_awake[a] = kept_awake[b] = 1u;
         continue;
       }
       uint la = label_now(a), lb = label_now(b);
@@ -76,7 +76,7 @@ void main() {
     barrier();
   }
   for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
-    if ((motion[i] & MOVED_LATELY) != 0u) kept_awake[label[i]] = 1u;
+    if ((motion[i] & MOVED_RECENTLY) != 0u) kept_awake[label[i]] = 1u;
   barrier();
   for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
     settle(world.bodies.x + i, world.bodies.x + label[i], kept_awake[label[i]] == 1u, w);

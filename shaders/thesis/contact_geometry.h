@@ -1,4 +1,5 @@
-// Lattice nodes of sheets, and the contact of a sphere with another sphere or a node.
+// Computes the contact of a sphere with another sphere, or with a node of a sheet. A sheet is a flat surface that is
+// covered by a lattice of nodes; only the nodes near the sphere are evaluated.
 
 float sheet_height(ThesisSheet sheet, vec4 center) { return dot(center.xyz - sheet.origin.xyz, sheet.normal.xyz); }
 

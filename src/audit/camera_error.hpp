@@ -1,5 +1,7 @@
-/// Estimates the error of the camera that a data set states, from the disagreement between labels and models of many
-/// parts.
+/// Estimates the error of the camera matrix and of the depth scale that a data set states. The input is the
+/// disagreement of many parts between their labels and their models: shifts of masks against silhouettes, and
+/// differences of depth. The estimates are robust against wrong labels of single parts. They are reported; the data are
+/// not corrected.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,14 +25,14 @@ struct CameraError {
   std::array<double, 9> corrected(std::array<double, 9> k) const;
 };
 
-/// A mask's shift against the silhouette, by the place of the silhouette.
+/// The shift of a mask against the silhouette of its part, and the position of that silhouette.
 struct ShiftSample {
   Eigen::Vector2d at, shift;  ///< px
 };
 
-/// Tukey's biweight by reweighted least squares, from the median of all shifts: up to a third of the samples may be
-/// wrong by any amount. Scale and radial distortion are found from 10 and 20 samples on, and are 0 unless they explain
-/// the shifts better by far. None below 4 samples.
+/// Fits the error by reweighted least squares with Tukey's biweight, starting from the median of all shifts, so that up
+/// to a third of the samples may be wrong by any amount. Scale needs 10 samples and radial distortion 20; both are 0
+/// unless they explain the shifts much better. Returns none for fewer than 4 samples.
 std::optional<CameraError> fit_camera(const std::vector<ShiftSample>& samples, const std::array<double, 9>& k);
 
 /// Depth of a part.

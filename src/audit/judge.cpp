@@ -218,8 +218,8 @@ void check_ids(const BopSet& set, const std::vector<AuditHeap>& heaps, AuditFigu
 }
 
 Json audit_json(const BopSet& set, AuditFigures& figures, double share) {
-  Json json = {{"scenes", figures.scenes},   {"heaps", figures.heaps},         {"parts", figures.parts},
-               {"escaped", figures.escaped}, {"world_told", set.world_stated}, {"exceeded", Json::array()},
+  Json json = {{"scenes", figures.scenes},   {"heaps", figures.heaps},           {"parts", figures.parts},
+               {"escaped", figures.escaped}, {"world_stated", set.world_stated}, {"exceeded", Json::array()},
                {"faults", figures.faults},   {"measures", Json::array()}};
   for (const AuditMeasure* measure : figures.all()) {
     if (measure->values.empty()) continue;

@@ -1,4 +1,6 @@
-/// Compares the results of an audit with its limits, and names the parts and images that exceed them.
+/// Compares the results of an audit (AuditFigures) with its limits. The result states which measures exceed their
+/// limits and names the parts and images that are worst; text, page and JSON of an audit all show it. The ids of parts
+/// are checked here as well; all other measures come from the auditor.
 #pragma once
 
 #include "audit/auditor.hpp"
@@ -17,11 +19,11 @@ bool exceeds(const AuditMeasure& measure, double share);
 /// Sets limits as "key=value". Throws an input Error that lists the keys.
 void set_limits(AuditFigures& figures, const std::vector<std::string>& limits);
 
-/// Instance ids that occur twice in an image, that other views of the heap give to other parts, or that do not stand
-/// where this project puts them; added to the faults of their parts. Sets without ids have no faults.
+/// Finds instance ids that occur twice in an image, that differ between views of the same heap, or that are not written
+/// where this project writes them, and adds these faults to their parts. Data sets without ids have no such faults.
 void check_ids(const BopSet& set, const std::vector<AuditHeap>& heaps, AuditFigures& figures);
 
-/// All that text, page and `--json` show: measures, the faults of the set, and the worst parts and images.
+/// Returns what text, page and `--json` show: measures, faults of the data set, and the worst parts and images.
 nlohmann::ordered_json audit_json(const BopSet& set, AuditFigures& figures, double share);
 
 }  // namespace bin_scenes

@@ -1,4 +1,5 @@
-/// JSON files of a data set that may be damaged.
+/// Reads JSON files of a data set that may be damaged. A file that is missing or is no JSON map gives an empty result
+/// instead of an exception, so that the checks of a data set can report it and continue.
 #pragma once
 
 #include "core/read_file.hpp"

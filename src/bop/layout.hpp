@@ -13,7 +13,7 @@ namespace bin_scenes {
 
 constexpr double bop_least_visible = 0.1;  ///< share below which bop_toolkit's evaluation ignores an object
 
-/// As BOP numbers scenes, images, masks and objects.
+/// Formats a number with leading zeros, as BOP does for scenes, images, masks and objects.
 std::string six_digits(std::size_t number);
 
 /// The folders and files of one image in its layout.
@@ -55,10 +55,10 @@ struct BopFiles {
  private:
   std::filesystem::path json(const std::string& what) const { return scene / ("scene_" + what + suffix + ".json"); }
 };
-/// Suffixes of the sensors of which a folder has a scene_gt file, sorted; none: it is no scene.
+/// Returns the suffixes of the sensors for which a folder has a scene_gt file, sorted; none if it is no scene.
 std::vector<std::string> bop_suffixes_in(const std::filesystem::path& folder);
 
-/// What a folder of models has.
+/// Paths of the files in a folder of models.
 std::filesystem::path bop_models_info(const std::filesystem::path& models);
 std::filesystem::path bop_model_file(const std::filesystem::path& models, std::size_t object);
 

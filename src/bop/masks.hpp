@@ -12,7 +12,7 @@
 
 namespace bin_scenes {
 
-/// A rectangle of an image; what lies outside is 0.
+/// A rectangle of an image; pixels outside of it are 0.
 struct MaskBox {
   int left = 0, top = 0, width = 0, height = 0;
   std::vector<std::uint8_t> inside;  ///< row-major, 0 or 1

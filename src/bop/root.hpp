@@ -19,8 +19,9 @@ struct BopFolder {
   std::size_t most_targets = 0;  ///< visible parts of an image that is a target; 0: any number
   std::string version = {};      ///< of the program that made it
   std::vector<std::string> splits = {};  ///< at least one
-  std::vector<Sensor> sensors = {};      ///< of the first scene; all have the same, but for their poses. None: no scene
-  std::string first_split = {};          ///< that of this scene
+  std::vector<Sensor> sensors =
+      {};                        ///< of the first scene; other scenes differ in poses only. Empty: there is no scene
+  std::string first_split = {};  ///< that of this scene
 
   std::filesystem::path scene(const std::string& split, std::size_t number) const {
     return root / split / six_digits(number);

@@ -1,5 +1,6 @@
 #include "bop/samples.hpp"
 
+#include "bin_scenes/output/image_channel.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "output/tiff.hpp"
 
@@ -36,10 +37,10 @@ void write_bop_samples(const std::string& directory, std::size_t scene, const st
       write_bytes(base + "rgb.png", png8(image.width, image.height, 3, in_bytes(image.seen->picture)));
     if (image.seen->picture.bits == 16)  // which readers of BOP's own files cut to their lower 8
       write_bytes(base + "image.png", png_of(image.width, image.height, image.seen->picture));
-    write_bytes(base + "snr.png", png16(image.width, image.height, counted_snr(image.seen->snr)));
-    write_bytes(base + "truth_labels.png", png16(image.width, image.height, image.seen->seen_label()));
-    write_bytes(base + "truth_normal.png",
-                png8(image.width, image.height, 3, counted_normals(image.seen->seen_normal())));
+    for (const ImageChannel& channel : image_channels())
+      if (channel.in_shards)
+        write_bytes(base + channel.name + ".png",
+                    png_of(channel.width(*image.seen), channel.height(*image.seen), channel.counts(*image.seen)));
     write_text(base + "camera.json", image.camera.dump());
     write_text(base + "gt.json", image.truth.dump());
     write_text(base + "gt_info.json", image.info.dump());

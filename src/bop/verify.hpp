@@ -1,4 +1,6 @@
-/// BOP's files against scene.json, and against each other.
+/// Checks the files that this project wrote in BOP's layout: each file against scene.json, and the files against each
+/// other. Faults are added to the list of findings, and the check continues. Data sets of other origin, which have no
+/// scene.json, are measured by the audit (src/audit) instead.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

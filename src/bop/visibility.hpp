@@ -16,7 +16,7 @@ namespace bin_scenes {
 struct BopVisibility {
   std::array<int, 4> box = {-1, -1, -1, -1};  ///< x, y, of the last pixel less the first: width and height
   std::array<int, 4> visible_box = {-1, -1, -1, -1};
-  std::size_t all = 0, valid = 0, visible = 0;  ///< pixels; `all` also of what lies beside the image
+  std::size_t all = 0, valid = 0, visible = 0;  ///< pixels; `all` includes pixels outside the image
   MaskBox whole_mask, visible_mask;
 };
 
@@ -32,7 +32,7 @@ BopVisibility true_visibility(const RangeImage& image, const std::vector<std::ui
 std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_in_camera, const Lens& lens,
                                             const std::vector<float>& distance, double tolerance);
 
-/// From depth along the optical axis to distance from the camera.
+/// Converts depth along the optical axis to distance from the camera.
 std::vector<float> distances(const std::vector<float>& depth, const Lens& lens);
 
 }  // namespace bin_scenes

@@ -22,7 +22,7 @@ struct BopPlan {
 
 /// @param own   the plan's key; may be undefined
 /// @param sensors  of the request; none: not known, names are not checked
-/// @param rig   what the request's rig says, where the plan says nothing; may be undefined
+/// @param rig   defaults that the request's rig states for keys that the plan lacks; may be undefined
 /// @param complain  takes problem, key below "bop" and remedy
 BopPlan read_bop_plan(
     const YAML::Node& own, const YAML::Node& rig, const std::vector<Sensor>& sensors,

@@ -38,7 +38,8 @@ std::vector<SceneFormat>& formats() {
                                          {"pcd", Needs::sensors},
                                          {"ply", Needs::sensors},
                                          {"png", Needs::sensors},
-                                         {"bop", Needs::sensors},
+                                         {"gray", Needs::sensors, true},
+                                         {"bop", Needs::sensors, true},
                                          {"bag", Needs::images},
                                          {"mcap", Needs::images},
                                          {"grasps", Needs::images}};

@@ -125,7 +125,7 @@ void read_json(const Json& json, const std::string& path, Enum& value) {
   throw JsonFault{path, "'" + text + "' is none of " + known};
 }
 
-/// For what only the presence of a section says.
+/// Reads a value that is expressed by the presence of a section.
 template <class Struct>
 void was_there(Struct&) {}
 inline void was_there(DriftReport& drift) {

@@ -27,7 +27,7 @@ class Source {
   std::string where(std::string path) const;
   bool knows(const std::string& path) const { return lines_.count(path) != 0 || overrides_.count(path) != 0; }
 
-  /// From now on errors of keys are added to `all`, and reading goes on behind them.
+  /// From now on, errors of keys are added to `all`, and reading continues after them.
   void collect(std::vector<Error>* all) { all_ = all; }
   /// Throws, unless errors are collected.
   void complain(const Error& error) {
@@ -49,7 +49,7 @@ void start_from_preset(const YAML::Node& map, const std::string& path, const Sou
 void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Surface& surface);
 void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Gripper& gripper);
 
-/// The map that an item of a list stands for: of grippers, the name of a preset.
+/// Returns the map for an item of a list. For grippers, the item may be the name of a preset.
 template <class Struct>
 YAML::Node map_of(const YAML::Node& item, const Struct&) {
   return item;
@@ -109,7 +109,7 @@ class KeyReader {
   }
 
   void bin_kind(Bin& bin, const BinKeys& keys);
-  /// The value of a key as it is written, for what no type stands for; not defined if the key is not there.
+  /// Returns the YAML node of a key, for values that no C++ type represents; undefined if the key is missing.
   YAML::Node node(const Key& key) { return take(key); }
 
   bool has(const std::string& name) const { return found_.count(name) != 0; }

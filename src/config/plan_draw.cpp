@@ -97,6 +97,13 @@ bool Plan::wants(const std::string& format) const {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
+bool Plan::wants_gray() const {
+  return wants("shards") || std::any_of(formats.begin(), formats.end(), [](const std::string& name) {
+           const SceneFormat* const format = find_scene_format(name);
+           return format && format->gray;
+         });
+}
+
 Request Plan::request(std::size_t heap, std::size_t attempt, const VolumeOf& volume_of) const {
   const Random stream(seed_of(seed, attempt), heap, Stream::plan);
   const auto drawn = [&](std::size_t kind) {  // of surfaces; all other keys are the same in every kind

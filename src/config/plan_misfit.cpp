@@ -14,7 +14,7 @@ std::optional<Error> misfit(const Plan& plan, const Request& request) {
     return input_error("the outputs show what a sensor sees, but the request has no sensors", "outputs",
                        "add `sensors: [{name: camera}]`, or leave such outputs out");
   if ((plan.wants("grasps") || plan.depletion.by_grasp) && request.grippers.empty())
-    return input_error("grasps are asked for, but the request has no grippers", "outputs",
+    return input_error("grasps are requested, but the request has no grippers", "outputs",
                        "add for instance `grippers: [robotiq_2f_85]`");
   if (!bop) return std::nullopt;
   if (request.sensors.size() != plan.reference.sensors.size())

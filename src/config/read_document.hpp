@@ -20,7 +20,7 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
                       const std::vector<Override>& overrides, const PathRules& rules,
                       std::vector<Error>* all = nullptr);
 
-/// For digests: where the files of bins and lamps lie does not matter, what is in them does.
+/// For digests, which depend on the contents of the files of bins and lamps, but not on their paths.
 Request without_places(Request request);
 /// Returns the digests of the pictures of lamps.
 std::string digests_of_pictures(const Request& request);

@@ -1,4 +1,6 @@
-/// What a check of files found.
+/// The list of faults that a check of files has found, with the number of checks that were made. The checks of data
+/// sets collect their results here from several threads. The list is sorted for output, so that it does not depend on
+/// the threads.
 #pragma once
 
 #include <map>

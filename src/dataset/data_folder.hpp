@@ -72,7 +72,7 @@ DataSetFacts read_facts(const std::filesystem::path& root);
 DataSetFacts claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
 void put_plan(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
 
-/// One process at a time works in a folder; the lock goes with the process, however it ends.
+/// Only one process at a time works in a folder. The lock is released when the process ends, in whatever way.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& root);  ///< throws an environment Error if another one has it

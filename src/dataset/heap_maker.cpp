@@ -170,6 +170,7 @@ void HeapMaker::make_scenes(std::size_t heap, std::size_t attempt, Attempt& out,
     before = Clock::now();
     Generator::Options options;
     options.render = plan_.formats != std::vector<std::string>{"json"};
+    options.gray = plan_.wants_gray();
     options.grasps = plan_.wants("grasps") || plan_.depletion.by_grasp;
     options.index = out.request->first + step;
     out.result = generator_.result(pile, options);

@@ -1,4 +1,6 @@
-/// Published figures of data sets of real bins, for comparison with the same figures of a simulated data set.
+/// Published figures of data sets of real bins, beside the same figures of a simulated data set: number of parts,
+/// visible fraction, distance and missing depth. The report of a data set shows them as a table. Each published figure
+/// states its source.
 #pragma once
 
 #include <nlohmann/json.hpp>

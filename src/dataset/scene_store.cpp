@@ -51,6 +51,10 @@ bool SceneStore::needs_sensors() const {
 bool SceneStore::needs_grasps() const {
   return wants("grasps");
 }
+bool SceneStore::needs_gray() const {
+  return std::any_of(formats_.begin(), formats_.end(),
+                     [](const std::string& name) { return find_scene_format(name)->gray; });
+}
 bool SceneStore::needs_images() const {
   return needs_sensors() || needs(SceneFormat::Needs::images);
 }

@@ -36,6 +36,7 @@ class SceneStore {
 
   bool needs_sensors() const;  ///< whether some format contains nothing but what a sensor sees
   bool needs_grasps() const;
+  bool needs_gray() const;
   bool needs_images() const;  ///< some format holds what sensors see, if there are any
 
   /// Returns the indices of the request's scenes that have a folder. It reads the directory, because the request may

@@ -1,4 +1,6 @@
-/// Submits the making of a data set to Slurm as an array job, in which each task makes one share.
+/// Submits the making of a data set to Slurm as an array job, in which each task makes one share. The call waits until
+/// all tasks have ended; a repeated call finds a job that was submitted before. Merging the shares is done by the
+/// caller.
 #pragma once
 
 #include <atomic>
@@ -9,7 +11,7 @@
 namespace bin_scenes {
 
 struct SlurmJob {
-  std::string plan, out;             ///< shares lie in OUT/.shares until they are merged into OUT
+  std::string plan, out;             ///< shares are stored in OUT/.shares until they are merged into OUT
   std::size_t shares = 4, cpus = 1;  ///< tasks; cores a task
   std::vector<std::string> options;  ///< further ones of sbatch
   std::function<void(const std::string)> report;
@@ -18,7 +20,7 @@ struct SlurmJob {
 
 /// Submits the job, or finds the one that an earlier call submitted, waits until Slurm has no task of it any more, and
 /// returns the folders of the shares. Throws an environment Error if Slurm is not there; Error(cancelled) when stopped:
-/// the job then goes on, and the next call finds it.
+/// the job then continues, and the next call finds it.
 std::vector<std::string> run_slurm_job(const SlurmJob& job);
 
 }  // namespace bin_scenes

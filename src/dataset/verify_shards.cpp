@@ -1,5 +1,6 @@
 /// Reads every shard as a tar file and compares keys, offsets, sizes and masks with what the set states of its images.
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/image_channel.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
 #include "dataset/verify.hpp"
@@ -15,9 +16,16 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* files_of_image[] = {"camera.json",      "depth.png",       "gray.tiff",       "gt.json",
-                                          "gt_info.json",     "mask.json",       "mask_visib.json", "snr.png",
-                                          "truth_labels.png", "truth_normal.png"};
+constexpr const char* files_of_image[] = {"camera.json",  "depth.png", "gray.tiff",      "gt.json",
+                                          "gt_info.json", "mask.json", "mask_visib.json"};
+
+bool holds_all(const std::map<std::string, std::string>& files) {
+  bool all = true;
+  for (const char* file : files_of_image) all &= files.count(file) == 1;
+  for (const ImageChannel& channel : image_channels())
+    all &= !channel.in_shards || files.count(channel.name + ".png") == 1;
+  return all;
+}
 
 void verify_run_lengths(const std::string& key, const std::map<std::string, std::string>& files,
                         const std::string& where, Findings& findings) {
@@ -65,14 +73,17 @@ bool labels_agree(const Json& truth, const Json& masks, const LoadedImage& label
 
 void verify_shard_images(const std::string& key, const std::map<std::string, std::string>& files, bool by_truth,
                          const std::string& where, Findings& findings) {
-  LoadedImage depth, snr, labels, normals;
+  const auto loaded = [&](const std::string& name) {
+    return png_from(files.at(name + ".png"), where + ", " + key + "." + name + ".png");
+  };
+  LoadedImage depth;
+  std::map<std::string, LoadedImage> channels;
   std::optional<LoadedImage> picture;
   try {
-    depth = png_from(files.at("depth.png"), where + ", " + key + ".depth.png");
-    snr = png_from(files.at("snr.png"), where + ", " + key + ".snr.png");
-    labels = png_from(files.at("truth_labels.png"), where + ", " + key + ".truth_labels.png");
-    normals = png_from(files.at("truth_normal.png"), where + ", " + key + ".truth_normal.png");
-    if (files.count("image.png")) picture = png_from(files.at("image.png"), where + ", " + key + ".image.png");
+    depth = loaded("depth");
+    for (const ImageChannel& channel : image_channels())
+      if (channel.in_shards) channels[channel.name] = loaded(channel.name);
+    if (files.count("image.png")) picture = loaded("image");
   } catch (const Error& error) {
     findings.expect(false, "shard_images", error.where(), error.problem());
     return;
@@ -81,14 +92,16 @@ void verify_shard_images(const std::string& key, const std::map<std::string, std
     return image.width == depth.width && image.height == depth.height;
   };
   const std::string image = where + ", " + key;
-  if (!findings.expect(same(snr) && same(labels) && same(normals) && normals.channels == 3, "shard_images", image,
-                       "depth, SNR, labels and normals have different sizes"))
-    return;
+  for (const auto& [name, found] : channels)
+    if (!findings.expect(same(found) && found.channels == find_image_channel(name)->samples, "shard_images", image,
+                         name + ".png has another size than depth.png"))
+      return;
   if (picture)
     findings.expect(same(*picture) && picture->bits == 16, "shard_images", image,
                     "image.png is none of 16 bits of the size of depth.png");
   if (by_truth)
-    findings.expect(labels_agree(Json::parse(files.at("gt.json")), Json::parse(files.at("mask_visib.json")), labels),
+    findings.expect(labels_agree(Json::parse(files.at("gt.json")), Json::parse(files.at("mask_visib.json")),
+                                 channels.at("truth_labels")),
                     "shard_labels", image, "mask_visib.json is not where truth_labels.png has the parts");
 }
 
@@ -133,9 +146,7 @@ void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings
                       "holds " + key + ", which another shard holds");
       findings.expect(map.is_object() && map.value(key, Json()) == shard, "shard_keys", where,
                       "holds " + key + ", but key_to_shard.json does not say so");
-      bool complete = true;
-      for (const char* file : files_of_image) complete &= files.count(file) == 1;
-      if (!findings.expect(complete, "shard_complete", where + ", " + key, "lacks a file")) continue;
+      if (!findings.expect(holds_all(files), "shard_complete", where + ", " + key, "lacks a file")) continue;
       try {
         verify_run_lengths(key, files, where, findings);
         verify_shard_images(key, files, facts.tolerance == 0.0, where, findings);

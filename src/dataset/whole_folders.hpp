@@ -47,7 +47,7 @@ class WholeFolders {
 
   /// `fill` writes into the folder it is given. Its errors name the folder that it was to become.
   void write(const std::filesystem::path& target, const std::function<void(const std::string& hidden)>& fill);
-  /// In the order in which they were written.
+  /// Renames the folders to their final names, in the order in which they were written.
   void commit();
 
  private:

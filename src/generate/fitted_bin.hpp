@@ -33,7 +33,7 @@ struct FittedBin {
 FittedBin fit_bin(const Mesh& part, std::size_t count);
 
 struct SensorPlace {
-  std::optional<double> height;  ///< m above the floor, looking down; none: where the sensor stands by default
+  std::optional<double> height;  ///< m above the floor, looking down; none: the default position
   double distance = 0.0;         ///< m from the camera to the floor
   std::string warning;           ///< empty, or what it cannot see
 };

@@ -168,7 +168,7 @@ struct Generator::State {
     scene.sensors = sensors;
     if (options.render && !sensors.empty()) {
       StageTimer timer(spent, "render");
-      result.images = rig.render(scene, loaded);
+      result.images = rig.render(scene, loaded, options.gray);
     }
     if (options.grasps) {
       StageTimer timer(spent, "grasps");

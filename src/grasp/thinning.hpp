@@ -16,7 +16,7 @@ class PoseMeasure {
   PoseMeasure(const Symmetries& symmetries, Gripper::Type type);
 
   struct Limits {
-    double apart = 0.0, angle = 0.0;  ///< m, rad
+    double apart = 0.0, angle = 0.0;  ///< m between positions, rad between orientations
   };
   /// Distance of two poses in units of the limits: the larger one of distance / apart and angle / angle, for the
   /// symmetry that makes it smallest. If it is at least `enough`, the result may be any value of at least `enough`.

@@ -48,10 +48,18 @@ SeenPoint seen_point(const View& view, std::size_t pixel) {
           view.label[pixel]};
 }
 
-Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
+Ray ray_along(const Vec3& surface, const Vec3& normal, const Vec3& direction) {
   constexpr double gap = 1e-5;  // m
-  const Vec3 start = surface + gap * normal;
+  return {surface + gap * normal, direction, 0.0, 1e9};
+}
+
+Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
+  const Vec3 start = ray_along(surface, normal, normal).origin;
   return {start, point - start, 0.0, 1.0};
+}
+
+SeenPoint point_of(const Ray& ray, const Hit& hit) {
+  return {ray.origin + hit.distance * ray.direction, hit.normal, hit.line, !std::isnan(hit.distance), hit.label};
 }
 
 namespace {

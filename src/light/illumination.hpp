@@ -67,6 +67,9 @@ void light(const LightSource& source, const Vec3* eyes, const SeenPoint* points,
 /// Ray from just above a surface to a point, for Scenery::blocked. The gap keeps single precision from letting a
 /// surface occlude itself.
 Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point);
+/// Ray from there in a direction, and what it hits: a step of a path of light.
+Ray ray_along(const Vec3& surface, const Vec3& normal, const Vec3& direction);
+SeenPoint point_of(const Ray& ray, const Hit& hit);
 
 /// The gain of an exposure: a white surface's signal is gain * reflected / distance^2. With automatic exposure, a white
 /// matte surface parallel to the image, at the median distance of all points that are lit, gives the signal

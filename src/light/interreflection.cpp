@@ -39,15 +39,6 @@ std::vector<int> shuffled(int count, Random random) {
   return order;
 }
 
-/// Rays from just above a surface.
-Ray ray_from(const SeenPoint& point, const Vec3& direction) {
-  return {ray_between(point.position, point.normal, point.position + direction).origin, direction, 0.0, 1e9};
-}
-
-SeenPoint point_of(const Ray& ray, const Hit& hit) {
-  return {ray.origin + hit.distance * ray.direction, hit.normal, hit.line, !std::isnan(hit.distance), hit.label};
-}
-
 /// Rays, what they meet and how it is lit.
 struct Batch {
   std::vector<SeenPoint> from;
@@ -95,7 +86,7 @@ struct Batch {
     std::vector<Ray> rays(from.size());
     std::vector<Hit> hits(from.size());
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      rays[i] = ray_from(from[i], samples[i].direction);
+      rays[i] = ray_along(from[i].position, from[i].normal, samples[i].direction);
       if (samples[i].factor <= 0.0) rays[i].direction = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     }
     scenery.first_hits(rays.data(), hits.data(), rays.size(), Scenery::Rays::scattered);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace bin_scenes {
 
@@ -16,9 +17,8 @@ constexpr std::size_t block_pixels = 64;
 /// Pairs of numbers: place in the pixel, blur, and for each surface a point of a lamp, a direction, and which lamp.
 enum Pair { place, blurred, first_surface };
 enum PairOfSurface { on_lamp, along_lobe, which_lamp, pairs_of_surface };
-constexpr int all_pairs = first_surface + 3 * pairs_of_surface;
+constexpr int on_lens = first_surface + 3 * pairs_of_surface, all_pairs = on_lens + 1;
 
-constexpr double soft = 0.5;  ///< roughness
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::vector<std::array<std::uint32_t, 2>> sobol(int count) {
@@ -38,8 +38,9 @@ Rgb in_colour(const Surface& surface, double matte, double mirrored) {
   return surface.metal() ? Rgb((matte + mirrored) * colour) : Rgb(matte * colour + mirrored);
 }
 
-Surfaces softened(Surfaces surfaces) {
-  const auto soften = [](Surface& surface) {
+Surfaces softened(Surfaces surfaces, double soft) {
+  if (!(soft > 0.0)) return surfaces;
+  const auto soften = [&](Surface& surface) {
     surface.roughness = std::max(surface.roughness, soft);
     surface.anisotropy = surface.texture.oil = 0.0;
   };
@@ -53,6 +54,7 @@ Surfaces softened(Surfaces surfaces) {
 /// A row of pixels, and what all their paths see first.
 struct PathTracer::Row {
   std::size_t index = 0;
+  std::vector<std::uint32_t> columns;                      // of the pixels
   std::vector<std::array<Scramble, all_pairs>> scrambles;  // by pixel
   std::vector<Spot> spots;                                 // by pixel and sample
   bool drawn = false;
@@ -88,7 +90,7 @@ PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pos
       pose_(pose),
       turn_(pose.orientation.toRotationMatrix()),
       surfaces_(surfaces),
-      soft_(softened(surfaces)),
+      soft_(softened(surfaces, setup.soft)),
       lamps_(lamps),
       setup_(setup),
       key_(key),
@@ -99,10 +101,16 @@ PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pos
       net_(sobol(setup.samples)) {}
 
 std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
-  const auto width = static_cast<std::size_t>(lens_.width);
+  std::vector<std::uint32_t> columns(static_cast<std::size_t>(lens_.width));
+  std::iota(columns.begin(), columns.end(), 0u);
+  return row(index, columns, grain);
+}
+
+std::vector<Rgb> PathTracer::row(std::size_t index, const std::vector<std::uint32_t>& columns, Grain* grain) const {
+  const std::size_t width = columns.size();
   thread_local Row row;  // both keep their memory
   thread_local Block block;
-  begin(row, index);
+  begin(row, index, columns);
   see(row);
   std::vector<Rgb> radiance;
   radiance.reserve(width);
@@ -123,11 +131,12 @@ std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
   return radiance;
 }
 
-void PathTracer::begin(Row& row, std::size_t index) const {
+void PathTracer::begin(Row& row, std::size_t index, const std::vector<std::uint32_t>& columns) const {
   row.index = index;
-  row.scrambles.resize(static_cast<std::size_t>(lens_.width));
-  for (std::size_t i = 0; i < row.scrambles.size(); ++i) {
-    Random random = key_.of_piece(index * row.scrambles.size() + i);
+  row.columns = columns;
+  row.scrambles.resize(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    Random random = key_.of_piece(index * static_cast<std::size_t>(lens_.width) + columns[i]);
     for (Scramble& scramble : row.scrambles[i]) {
       const std::uint64_t both = random.next();
       scramble.x = static_cast<std::uint32_t>(both), scramble.y = static_cast<std::uint32_t>(both >> 32);
@@ -137,8 +146,8 @@ void PathTracer::begin(Row& row, std::size_t index) const {
 }
 
 /// The points of a pixel in an order of its own: the same net, and so are its first quarter and any other.
-Eigen::Vector2d PathTracer::drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const {
-  const Scramble& scramble = row.scrambles[column][static_cast<std::size_t>(pair)];
+Eigen::Vector2d PathTracer::drawn(const Row& row, std::size_t pixel, int pair, std::uint32_t sample) const {
+  const Scramble& scramble = row.scrambles[pixel][static_cast<std::size_t>(pair)];
   const auto& point = net_[sample ^ scramble.order];
   return {(point[0] ^ scramble.x) * 0x1p-32, (point[1] ^ scramble.y) * 0x1p-32};
 }
@@ -149,26 +158,25 @@ Eigen::Vector2d PathTracer::drawn(const Block& block, const Vertex& vertex, int 
 
 void PathTracer::see(Row& row) const {
   row.spots.clear();
-  for (std::size_t column = 0; column < row.scrambles.size(); ++column) {
+  for (std::size_t pixel = 0; pixel < row.columns.size(); ++pixel) {
     for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(setup_.samples); ++s) {
-      Eigen::Vector2d at = drawn(row, column, place, s) - Eigen::Vector2d(0.5, 0.5);
+      Eigen::Vector2d at = drawn(row, pixel, place, s) - Eigen::Vector2d(0.5, 0.5);
       if (setup_.blur > 0.0) {
-        const Eigen::Vector2d normal = drawn(row, column, blurred, s);
+        const Eigen::Vector2d normal = drawn(row, pixel, blurred, s);
         at += setup_.blur * std::sqrt(-2.0 * std::log(1.0 - normal.x())) * on_unit_circle(normal.y());
       }
       Spot spot;
-      spot.u = static_cast<double>(column) + at.x(), spot.v = static_cast<double>(row.index) + at.y();
+      spot.u = static_cast<double>(row.columns[pixel]) + at.x(), spot.v = static_cast<double>(row.index) + at.y();
       spot.near = 1.0 / setup_.far;
       row.spots.push_back(spot);
     }
   }
-  row.drawn = spots_.draw(row.spots.data(), row.spots.size());
+  row.drawn = setup_.aperture == 0.0 && spots_.draw(row.spots.data(), row.spots.size());
 }
 
 /// Rays to what is seen first, and what they hit.
 void PathTracer::begin(Block& block, const Row& row, std::size_t first, std::size_t count) const {
   const auto samples = static_cast<std::size_t>(setup_.samples);
-  const bool plain = !lens_.distorts() && lens_.skew == 0.0;
   block.row = &row;
   block.first = first;
   block.radiance.assign(count, {Rgb::Zero(), Rgb::Zero()});
@@ -176,9 +184,7 @@ void PathTracer::begin(Block& block, const Row& row, std::size_t first, std::siz
   block.hits.resize(count * samples);
   for (std::size_t i = 0; i < block.hits.size(); ++i) {
     const Spot& spot = row.spots[first * samples + i];
-    const Vec3 ray =
-        plain ? Vec3((spot.u - lens_.cx) / lens_.fx, (spot.v - lens_.cy) / lens_.fy, 1.0) : lens_.ray(spot.u, spot.v);
-    block.rays.push_back({pose_.position, turn_ * ray, setup_.near, setup_.far});
+    block.rays.push_back(ray_of(row, first + i / samples, static_cast<std::uint32_t>(i % samples)));
     if (!row.drawn) continue;
     if (lens_.inside({spot.u, spot.v}))
       block.hits[i] = scenery_.hit(block.rays[i], spot.face, 1.0 / spot.near);
@@ -186,6 +192,40 @@ void PathTracer::begin(Block& block, const Row& row, std::size_t first, std::siz
       scenery_.first_hits(&block.rays[i], &block.hits[i], 1);
   }
   if (!row.drawn) scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size());
+  lay_table(block.rays, block.hits);
+}
+
+/// Through a point of the aperture to where the ray through its centre meets the plane in focus (Cook, Porter,
+/// Carpenter 1984, "Distributed ray tracing").
+Ray PathTracer::ray_of(const Row& row, std::size_t pixel, std::uint32_t sample) const {
+  const Spot& spot = row.spots[pixel * static_cast<std::size_t>(setup_.samples) + sample];
+  const bool plain = !lens_.distorts() && lens_.skew == 0.0;
+  const Vec3 ray =
+      plain ? Vec3((spot.u - lens_.cx) / lens_.fx, (spot.v - lens_.cy) / lens_.fy, 1.0) : lens_.ray(spot.u, spot.v);
+  if (setup_.aperture == 0.0) return {pose_.position, turn_ * ray, setup_.near, setup_.far};
+  const Eigen::Vector2d at = drawn(row, pixel, on_lens, sample);
+  const Eigen::Vector2d disc = 0.5 * setup_.aperture * std::sqrt(at.x()) * on_unit_circle(at.y());
+  const Vec3 start(disc.x(), disc.y(), 0.0);
+  return {pose_ * start, turn_ * (ray - start / setup_.focus), setup_.near, setup_.far};
+}
+
+void PathTracer::lay_table(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
+  if (!setup_.table) return;
+  const Hit nothing = scenery_.hit({}, Scenery::no_face, 0.0);
+  for (std::size_t i = 0; i < rays.size(); ++i) setup_.table->cover(rays[i], nothing, hits[i]);
+}
+
+void PathTracer::find_hits(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
+  hits.resize(rays.size());
+  scenery_.first_hits(rays.data(), hits.data(), rays.size(), Scenery::Rays::scattered);
+  lay_table(rays, hits);
+}
+
+void PathTracer::find_blocked(const std::vector<Ray>& rays, std::vector<std::uint8_t>& blocked,
+                              Scenery::Rays kind) const {
+  blocked.resize(rays.size());
+  scenery_.blocked(rays.data(), blocked.data(), rays.size(), kind);
+  for (std::size_t i = 0; setup_.table && i < rays.size(); ++i) blocked[i] |= setup_.table->blocks(rays[i]);
 }
 
 void PathTracer::add_seen(Block& block) const {
@@ -235,6 +275,7 @@ void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& 
   vertex.position = ray.origin + hit.distance * ray.direction;
   vertex.face = hit.normal;
   vertex.normal = scenery_.smooth_normal(hit, vertex.position);
+  if (setup_.bevels) vertex.normal = setup_.bevels->normal(hit, vertex.position, vertex.normal);
   // A smooth surface that turns away from where it is seen from is none: its face is.
   if (vertex.normal.dot(vertex.to_eye) < 0.02) vertex.normal = vertex.face;
   vertex.line = hit.line, vertex.label = hit.label;
@@ -242,6 +283,11 @@ void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& 
 }
 
 const Surface& PathTracer::surface_of(const Vertex& vertex, int bounce, Surface& own) const {
+  if (vertex.line == Table::line) {
+    own = setup_.table->surface(vertex.position);
+    if (bounce > 0) own.roughness = std::max(own.roughness, setup_.soft);
+    return own;
+  }
   return (bounce == 0 ? surfaces_ : soft_).at(vertex.line, vertex.label, vertex.position, own);
 }
 
@@ -269,9 +315,7 @@ void PathTracer::ask_lamps(Block& block, int bounce) const {
     block.asked.push_back({v.pixel, v.sample % 2, light});
     block.rays.push_back(ray_between(v.position, v.face, v.position + lamp.distance * lamp.direction));
   }
-  block.blocked.resize(block.rays.size());
-  scenery_.blocked(block.rays.data(), block.blocked.data(), block.rays.size(),
-                   bounce == 0 ? Scenery::Rays::side_by_side : Scenery::Rays::scattered);
+  find_blocked(block.rays, block.blocked, bounce == 0 ? Scenery::Rays::side_by_side : Scenery::Rays::scattered);
   for (std::size_t i = 0; i < block.asked.size(); ++i)
     if (!block.blocked[i]) block.radiance[block.asked[i].pixel][block.asked[i].half] += block.asked[i].light;
 }
@@ -299,7 +343,7 @@ void PathTracer::follow_lobes(Block& block, int bounce) const {
     const Eigen::Vector2d at = drawn(block, v, pair);
     const Lobe::Sample sample = Lobe(surface, v.normal, v.to_eye).at(at.x(), at.y());
     if (!(sample.factor > 0.0 && v.face.dot(sample.direction) > 0.0)) continue;
-    const Ray ray = {ray_between(v.position, v.face, v.position).origin, sample.direction, 0.0, 1e9};
+    const Ray ray = ray_along(v.position, v.face, sample.direction);
     const bool lamp_ahead = lamps_.flat_ahead(ray.origin, ray.direction, weight);
     if (!onward && !lamp_ahead && !lamps_.any_behind_all(weight)) continue;
     const Rgb path = times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte);
@@ -317,12 +361,10 @@ void PathTracer::find_ends(Block& block, double times) const {
     block.radiance[path.from->pixel][path.from->sample % 2] +=
         path.weight * lamps_.met(ray.origin, ray.direction, reach, weight_of(path.mirrors), path.sample.density);
   };
-  block.blocked.resize(block.outward.size());
-  scenery_.blocked(block.outward_rays.data(), block.blocked.data(), block.outward.size(), Scenery::Rays::scattered);
+  find_blocked(block.outward_rays, block.blocked, Scenery::Rays::scattered);
   for (std::size_t i = 0; i < block.outward.size(); ++i)
     if (!block.blocked[i]) add(block.outward[i], block.outward_rays[i], infinite);
-  block.hits.resize(block.followed.size());
-  scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size(), Scenery::Rays::scattered);
+  find_hits(block.rays, block.hits);
   block.next.clear();
   for (std::size_t i = 0; i < block.followed.size(); ++i) {
     const Block::Followed& path = block.followed[i];

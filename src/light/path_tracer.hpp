@@ -3,8 +3,8 @@
 /// direction of the surface's lobe is followed. The results of both methods are weighted by how likely each was to find
 /// the path (multiple importance sampling). On matte surfaces, only the points on lamps are used.
 ///
-/// From the second surface on, mirrors are at least as rough as `soft`. Otherwise the few paths that find a lamp via
-/// two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
+/// From the second surface on, mirrors are at least as rough as Setup::soft. Without it the few paths that find a lamp
+/// via two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
 /// robust light transport").
 ///
 /// The random points fill their squares evenly (Sobol points whose digits are flipped by a key of the pixel), so that
@@ -14,9 +14,11 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
+#include "light/bevel.hpp"
 #include "light/illumination.hpp"
 #include "light/lamps.hpp"
 #include "light/lobe.hpp"
+#include "light/table.hpp"
 #include "raster/spots.hpp"
 
 #include <array>
@@ -28,10 +30,15 @@ namespace bin_scenes {
 class PathTracer {
  public:
   struct Setup {
-    int samples = 16;                                   ///< paths a pixel, a power of two
-    int bounces = 1;                                    ///< other surfaces that light may meet
-    double blur = 0.0;                                  ///< pixel, standard deviation of the lens's blur
-    double near = 0.0, far = 1e9;                       ///< m, depths that are seen
+    int samples = 16;              ///< paths a pixel, a power of two
+    int bounces = 1;               ///< other surfaces that light may meet
+    double blur = 0.0;             ///< pixel, standard deviation of the lens's blur
+    double near = 0.0, far = 1e9;  ///< m, depths that are seen
+    double aperture = 0.0;         ///< m, diameter of the lens's opening; 0: a pinhole
+    double focus = 1.0;            ///< m, depth that is sharp
+    double soft = 0.5;             ///< least roughness of mirrors from the second surface on
+    const Bevels* bevels = nullptr;
+    const Table* table = nullptr;
     enum class By { both, lamps, lobe } by = By::both;  ///< how lamps are found; tests compare these methods
   };
   PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
@@ -55,6 +62,8 @@ class PathTracer {
   /// Mean radiance of each pixel of a row.
   /// @param grain  of the row's pixels, if given
   std::vector<Rgb> row(std::size_t row, Grain* grain = nullptr) const;
+  /// The same of some pixels of a row, in the order of `columns`; `grain` has that order as well.
+  std::vector<Rgb> row(std::size_t row, const std::vector<std::uint32_t>& columns, Grain* grain = nullptr) const;
 
  private:
   struct Vertex {
@@ -72,12 +81,15 @@ class PathTracer {
   struct Block;
 
   const Surface& surface_of(const Vertex& vertex, int bounce, Surface& own) const;
-  bool mirrors(const Surface& surface, int bounce) const { return bounce == 0 && surface.gloss > 0.0; }
+  /// Whether paths that find a lamp along the lobe of the surface share it with points on lamps.
+  bool mirrors(const Surface& surface, int bounce) const {
+    return surface.gloss > 0.0 && (bounce == 0 || setup_.soft < 0.5);
+  }
   bool asks(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample >= ask_from_; }
   bool follows(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample < follow_; }
-  Eigen::Vector2d drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const;
+  Eigen::Vector2d drawn(const Row& row, std::size_t pixel, int pair, std::uint32_t sample) const;
   Eigen::Vector2d drawn(const Block& block, const Vertex& vertex, int pair) const;
-  void begin(Row& row, std::size_t index) const;
+  void begin(Row& row, std::size_t index, const std::vector<std::uint32_t>& columns) const;
   void see(Row& row) const;
   void begin(Block& block, const Row& row, std::size_t first, std::size_t count) const;
   void add_seen(Block& block) const;
@@ -86,6 +98,10 @@ class PathTracer {
   void follow_lobes(Block& block, int bounce) const;
   void find_ends(Block& block, double times) const;
   Lamps::Met weight_of(bool mirrors) const;
+  void lay_table(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
+  void find_hits(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
+  void find_blocked(const std::vector<Ray>& rays, std::vector<std::uint8_t>& blocked, Scenery::Rays kind) const;
+  Ray ray_of(const Row& row, std::size_t pixel, std::uint32_t sample) const;
   void add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const;
 
   const Scenery& scenery_;

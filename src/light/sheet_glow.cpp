@@ -135,8 +135,7 @@ void SheetGlow::fly(std::vector<Flight>& flights) const {
   std::vector<Hit> hits(flights.size());
   for (std::size_t i = 0; i < flights.size(); ++i) {
     const Flight& f = flights[i];
-    const Vec3 start = ray_between(f.from.position, f.from.normal, f.from.position + f.direction).origin;
-    rays[i] = {start, f.direction, 0.0, 1e9};
+    rays[i] = ray_along(f.from.position, f.from.normal, f.direction);
   }
   scenery_.first_hits(rays.data(), hits.data(), rays.size(), Scenery::Rays::scattered);
   std::vector<Flight> arrived;
@@ -144,7 +143,7 @@ void SheetGlow::fly(std::vector<Flight>& flights) const {
     if (std::isnan(hits[i].distance) || !(flights[i].flux > 0.0)) continue;
     Flight f = flights[i];
     f.spread += hits[i].distance * f.angle;
-    f.from = {rays[i].origin + hits[i].distance * f.direction, hits[i].normal, hits[i].line, true, hits[i].label};
+    f.from = point_of(rays[i], hits[i]);
     f.to_light = -f.direction;
     arrived.push_back(f);
   }

@@ -16,7 +16,7 @@ struct Solids {
   std::vector<Flag> flags;
 };
 
-/// In this process; `read_contained` is what protects from a crash or an endless loop.
+/// Reads the file in this process. `read_contained` protects from a crash or an endless loop of the library.
 Solids read_here(const std::string& bytes, const std::string& format, const LoadOptions& options);
 
 /// Throws an input Error as parse_mesh_file().

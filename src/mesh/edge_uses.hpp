@@ -11,7 +11,7 @@
 
 namespace bin_scenes::repair {
 
-/// One triangle's passage along an edge; sorted, all passages of an edge lie side by side.
+/// The use of an edge by one triangle. In a sorted list, all uses of an edge are adjacent.
 struct EdgeUse {
   std::uint32_t low, high;  // vertices, ascending
   std::uint32_t triangle;

@@ -62,7 +62,7 @@ class McapFile {
   std::map<ChannelId, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index_;
   Span chunk_span_, span_;  ///< first and last time of the open chunk, and of all messages
 
-  std::vector<McapSchema> schemas_;  ///< [id - 1]
+  std::vector<McapSchema> schemas_;  ///< by id - 1
   std::map<ChannelId, std::uint64_t> counts_;
   std::uint32_t chunks_ = 0, attachments_ = 0, texts_ = 0;
   /// Records of the summary that are known already.

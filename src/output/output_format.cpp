@@ -2,6 +2,8 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/sensor/gray_image.hpp"
+#include "output/png.hpp"
 
 #include <filesystem>
 
@@ -30,7 +32,7 @@ std::function<std::vector<std::string>(const Request&)> one(const char* name) {
 /// Files of a cloud or picture for each sensor.
 OutputFormat of_images(const char* name, const char* ending,
                        void (*write)(const std::string& folder, const RangeImage& image)) {
-  return {{name, Needs::sensors},
+  return {*find_scene_format(name),
           [write](const std::string& folder, const SceneOutput& output) {
             for (const RangeImage& image : output.images) write(folder, image);
           },
@@ -70,6 +72,10 @@ OutputFormat built_in(const SceneFormat& format) {
       write_ply(below(folder, image.sensor.name + ".ply"), image);
     });
   if (name == "png") return of_images("png", ".png", write_pngs);
+  if (name == "gray")
+    return of_images("gray", "_gray.png", [](const std::string& folder, const RangeImage& image) {
+      write_bytes(below(folder, image.sensor.name + "_gray.png"), png8(image.width, image.height, 1, gray_of(image)));
+    });
   if (name == "grasps") return {format, write_grasps, grasp_files};
   if (name == "bag")
     return {format,

@@ -3,6 +3,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/image_channel.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 
 #include <png.h>
@@ -130,23 +131,27 @@ std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>
 }
 
 void write_pngs(const std::string& directory, const RangeImage& image) {
-  const Sensor& sensor = image.sensor;
-  const std::string base = (std::filesystem::path(directory) / sensor.name).string();
-  const Bytes depth = png16(image.width, image.height, counted_depth(image.depth, sensor.depth_scale));
-  write_bytes(base + "_depth.png", depth);
-  // Exact sensors measure the truth: it is encoded once.
-  write_bytes(base + "_truth_depth.png",
-              image.truth_depth.empty()
-                  ? depth
-                  : png16(sensor.width, sensor.height, counted_depth(image.truth_depth, sensor.depth_scale)));
-  write_bytes(base + "_truth_normal.png", png8(sensor.width, sensor.height, 3, counted_normals(image.seen_normal())));
-  const Bytes labels = png16(image.width, image.height, image.label);
-  write_bytes(base + "_labels.png", labels);
-  write_bytes(base + "_truth_labels.png",
-              image.truth_label.empty() ? labels : png16(sensor.width, sensor.height, image.truth_label));
-  write_bytes(base + "_snr.png", png16(image.width, image.height, counted_snr(image.snr)));
-  write_bytes(base + "_validity.png", png8(image.width, image.height, 1, image.validity));
-  if (image.picture.channels > 0) write_bytes(base + "_image.png", png_of(image.width, image.height, image.picture));
+  const std::string base = (std::filesystem::path(directory) / image.sensor.name).string();
+  struct Made {
+    int width;
+    Picture counts;
+    Bytes png;
+  };
+  std::vector<Made> made;  // exact sensors measure the truth: it is encoded once
+  for (const ImageChannel& channel : image_channels()) {
+    Picture counts = channel.counts(image);
+    if (counts.channels == 0) continue;
+    const int width = channel.width(image), height = channel.height(image);
+    auto equal = std::find_if(made.begin(), made.end(), [&](const Made& other) {
+      return other.width == width && other.counts.channels == counts.channels && other.counts.bits == counts.bits &&
+             other.counts.counts == counts.counts;
+    });
+    if (equal == made.end()) {
+      Bytes png = png_of(width, height, counts);
+      equal = made.insert(made.end(), {width, std::move(counts), std::move(png)});
+    }
+    write_bytes(base + "_" + channel.name + ".png", equal->png);
+  }
   write_bytes(base + ".png", png8(image.width, image.height, 3, shaded_picture(image)));
   write_bytes(base + "_depth_picture.png", png_of(depth_picture(image)));
   write_bytes(base + "_validity_picture.png", png_of(validity_picture(image)));

@@ -1,4 +1,5 @@
-/// A file that is written in pieces and appears either complete or not at all.
+/// A file that is written in pieces and appears either complete or not at all. The pieces go to a temporary file in the
+/// same folder, which commit() renames. If the object is destroyed without commit(), nothing remains.
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"

@@ -1,4 +1,6 @@
-/// Writes the page of an audit as one file that needs no network.
+/// Writes the results of an audit as one HTML page: tables of the measures and of the worst parts, and a histogram of
+/// each measure. The page contains all of its data and needs no network. It shows what audit_json() has judged, and
+/// judges nothing itself.
 #pragma once
 
 #include "audit/auditor.hpp"

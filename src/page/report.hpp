@@ -1,4 +1,5 @@
-/// Writes the report of a data set as one HTML page that opens from the disk without a network.
+/// Writes the report of a data set as one HTML page: statistics of its scenes, the plan, and pictures of some scenes.
+/// The page contains all of its data and can be opened from the disk without a network. It only reads the data set.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-/// Draws the predicted noise of a sensor as a picture.
+/// Draws the predicted noise of a sensor as an SVG picture with two panels: noise over distance and noise over the
+/// angle of incidence. `bin_scenes sensor --plot` writes it. The values are computed in sensor/metrics.hpp.
 #pragma once
 
 #include "bin_scenes/sensor/metrics.hpp"

@@ -1,4 +1,5 @@
-/// Pictures of bars, curves and texts.
+/// Builds an SVG picture from bars, curves and texts, in the order in which they are added. The plots of the pages use
+/// it. There are no axes or scales: the caller converts values to lengths of the picture.
 #pragma once
 
 #include <Eigen/Core>

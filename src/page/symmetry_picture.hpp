@@ -1,4 +1,5 @@
-/// Draws a part with the axes of its symmetries, for inspection.
+/// Draws a part with the axes of its symmetries as a PNG picture, so that a user can check them by eye. `bin_scenes
+/// symmetries --picture` writes it. The symmetries are found in part/symmetry.hpp.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,6 @@
-/// A finished scene as one HTML page that needs no network.
+/// Writes a finished scene as one HTML page in which parts, bin, cameras and clouds can be turned and inspected. The
+/// page contains all of its data and needs no network. With a trace, it also shows the motion of the parts and their
+/// contacts over time.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

@@ -1,4 +1,5 @@
-/// Reads the cloud of a sensor from the files of a finished scene, for the page of `view`.
+/// Reads the cloud of a sensor from the files of a finished scene, for the page of `view`. It uses whatever the scene
+/// has: a cloud file, otherwise the depth image, and the true depth for the errors. Large clouds are thinned.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
@@ -11,7 +12,7 @@
 namespace bin_scenes {
 
 struct ViewCloud {
-  /// Sensor's optical frame (m). Pixels without a measurement lie where the truth is, as far as that is known.
+  /// Sensor's optical frame (m). Pixels without a measurement are at the true depth, if that is known.
   std::vector<std::array<float, 3>> points;
   std::vector<std::uint16_t> labels;   ///< 0: background or bin; part id + 1 otherwise
   std::vector<std::uint8_t> validity;  ///< codes of scene/validity.hpp

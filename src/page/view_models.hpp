@@ -1,4 +1,6 @@
-/// Finds the model files of a finished scene again, for the page of `view`.
+/// Finds the model files of a finished scene again, for the page of `view`. A scene stores names and digests of its
+/// models, not the models, and may have been moved to another machine since. A file of the right name but with another
+/// digest is not used.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

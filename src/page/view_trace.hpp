@@ -1,4 +1,5 @@
-/// Reads a trace (output/trace_lines.hpp) for the page of `view`, which shows the scene at any of its samples.
+/// Reads a trace (output/trace_lines.hpp) and packs it for the page of `view`, which shows the scene at any of its
+/// samples. Long traces are thinned to a fixed number of samples.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

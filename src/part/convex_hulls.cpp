@@ -13,6 +13,7 @@
 #include "core/in_parallel.hpp"
 #include "hacd_partition.hpp"
 #include "plane_cuts.hpp"
+#include "round_holes.hpp"
 #include "shells.hpp"
 
 #include <algorithm>
@@ -35,6 +36,8 @@ constexpr int tries = 4;
 constexpr int spare = 3;
 // Patches of HACD to merge from.
 constexpr int patches = 64;
+// What hulls beside a hole may lack of the solid / max_error.
+constexpr double hole_loss = 0.8;
 constexpr int all_vertices = std::numeric_limits<int>::max();
 constexpr int most_more = 8;            // times as many vertices as asked for may a convex part get
 constexpr double convex_enough = 1e-3;  // of its volume may be missing from its hull
@@ -169,6 +172,24 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
   return left;
 }
 
+/// Round holes wider than the surface error that is allowed: parts that fit into them must fit between the hulls.
+std::vector<RoundHole> wide_holes(const MeshQuery& query, double allowed) {
+  std::vector<RoundHole> holes = round_holes(query);
+  const auto narrow = [&](const RoundHole& hole) { return hole.radius < allowed; };
+  holes.erase(std::remove_if(holes.begin(), holes.end(), narrow), holes.end());
+  return holes;
+}
+
+/// Hulls that stay out of holes, of each as far as they are then not too many.
+std::vector<Mesh> cleared(std::vector<Mesh> hulls, const std::vector<RoundHole>& holes, double loss, int most) {
+  for (const RoundHole& hole : holes) {
+    std::vector<Mesh> clear = cleared(hulls, hole, loss);
+    if (!clear.empty() && clear.size() <= std::max(static_cast<std::size_t>(most), hulls.size()))
+      hulls = std::move(clear);
+  }
+  return hulls;
+}
+
 void check_options(const HullOptions& options) {
   if (options.max_hulls < 1 || options.max_vertices < 4 || !(options.max_error > 0) ||
       !(options.max_volume_error > 0)) {
@@ -187,7 +208,10 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
   ConvexHulls best;
   double excess = std::numeric_limits<double>::infinity();  // its larger error / what is allowed
   // Keeps hulls that are better than the best so far.
+  const double allowed = options.max_error * mesh.bounds().diagonal();
+  const std::vector<RoundHole> holes = wide_holes(query, allowed);
   const auto judge = [&](std::vector<Mesh> hulls, const Protrusion* protrusion) {
+    hulls = cleared(std::move(hulls), holes, hole_loss * allowed, options.max_hulls);
     const double surface = surface_error(hulls, query, protrusion);
     const double volume_error = volume > 0 ? union_volume(hulls) / volume - 1 : 0.0;
     const double found = std::max(surface / options.max_error, volume_error / options.max_volume_error);

@@ -14,7 +14,7 @@
 namespace bin_scenes {
 
 /// Raise it whenever a layout below or the construction of a proxy changes: older cache files are then passed over.
-constexpr int part_format = 7;
+constexpr int part_format = 8;
 
 using ByteWriter = WriterInto<Bytes>;
 

@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// Points with normal . p > offset lie above.
+/// Points with normal . p > offset are above the plane.
 struct CutPlane {
   Vec3 normal = Vec3::UnitZ();
   double offset = 0.0;
@@ -17,9 +17,10 @@ struct CutPlane {
   double height(const Vec3& p) const { return normal.dot(p) - offset; }
 };
 
-/// The triangles of a surface below and above a plane, those across it clipped. Vertices within `tolerance` of the
-/// plane count as in it; a triangle wholly in it goes to the side of its solid: below, if it looks up. No caps are
-/// made: the corners of a cut solid all lie on its clipped surface, but for those where three cuts meet inside it.
+/// Divides a surface at a plane. Returns the part below and the part above; triangles that cross the plane are clipped.
+/// Vertices within `tolerance` of the plane are in it; a triangle in the plane belongs to the side of its solid: below,
+/// if it faces up. No caps are made, because hulls need only the corners of the cut solid, and nearly all of them are
+/// on the clipped surface.
 std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double tolerance);
 
 /// The data of the solid that the cuts need.

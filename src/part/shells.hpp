@@ -1,4 +1,5 @@
-/// Finds the connected components (shells) of a mesh.
+/// Finds the connected components (shells) of a mesh. A part that is made of several solids has several shells. Convex
+/// hulls and surface samples are made for each shell.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -20,7 +20,7 @@ struct PreparedTriangle {
       : a(a_), ab(b - a_), ac(c - a_), ab_ab(ab.dot(ab)), ab_ac(ab.dot(ac)), ac_ac(ac.dot(ac)) {
     normal = ab.cross(ac);
     const double length = normal.norm();
-    // A sliver has no trustworthy normal; zero says so.
+    // A sliver has no reliable normal; zero marks this.
     normal = length > 1e-9 * longest_squared() ? Vec3(normal / length) : Vec3::Zero();
     center = (a + b + c) / 3;
     reach = std::sqrt(std::max({(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()}));

@@ -90,9 +90,11 @@ class EnergyAudit {
   /// A ball that contains all positions of a body since the last observation.
   struct Reach {
     std::size_t body;
-    Vec3 center;
-    double radius, gain, before,
-        now;  ///< m; J; m/s: earlier speed of its fastest point, and present speed of its centre
+    Vec3 center;    ///< m
+    double radius;  ///< m
+    double gain;    ///< J, energy gained since the last observation
+    double before;  ///< m/s, speed of the body's fastest point at the last observation
+    double now;     ///< m/s, present speed of the centre of mass
   };
 
   void observe_world(double time);

@@ -60,7 +60,7 @@ class HeapCore final : private HeapView {
   /// Updates rest and escape only, at the end of a given time. `driven`: see EnergyAudit::observe().
   void update_rest(bool driven);
   /// Whether the bin or parts follow a motion now. If so, follow() must be called before each step.
-  bool follows() const { return course_ == Course::under_way; }
+  bool follows() const { return course_ == Course::moving; }
   void follow(double seconds);  ///< moves them to their present poses, with their velocities for the next `seconds`
   bool over() const;
   Progress progress() const;
@@ -73,7 +73,7 @@ class HeapCore final : private HeapView {
 
  private:
   enum class Place { waiting, in, escaped, no_room, removed };
-  enum class Course { ahead, under_way, over };  ///< state of the prescribed motions
+  enum class Course { ahead, moving, over };  ///< state of the prescribed motions
 
   /// Makes a world. `lifted`: bodies that get as large a mass as if a hand held them.
   void note_worst();
@@ -148,7 +148,7 @@ class HeapCore final : private HeapView {
   std::vector<ContactForce> kept_forces_;
   Course course_ = Course::ahead;
   double course_begun_ = 0.0;  ///< s, start of the present motions
-  /// Part line: the motions of those before it, and of the bin, were in an earlier course.
+  /// First part line whose motions belong to the present course; those of earlier lines and of the bin are over.
   std::size_t moving_from_ = 0;
   std::vector<BodyState> states_;
   std::vector<Place> place_;

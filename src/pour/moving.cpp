@@ -90,7 +90,7 @@ void HeapCore::put_on_path(double t, double dt, bool ends) {
 void HeapCore::begin_motion() {
   if (course_ != Course::ahead) return;
   BIN_SCENES_ASSERT(motion_seconds() >= 0.0);
-  course_ = motion_seconds() > 0.0 ? Course::under_way : Course::over;
+  course_ = motion_seconds() > 0.0 ? Course::moving : Course::over;
   course_begun_ = time_;
 }
 

@@ -14,6 +14,7 @@ WorldDef world_of(const LoadedRequest& loaded) {
   world.bin = request.bin;
   world.gravity = request.gravity;
   world.wall_height = request.bin.inner_size.z();
+  world.exact_impacts = request.pour.pattern == Pour::Pattern::given;  // random poses are never symmetric
   if (request.bin.kind == Bin::Kind::mesh) {
     LoadOptions options;
     options.unit = request.bin.unit;

@@ -29,11 +29,11 @@ struct Running {
 /// other.
 struct Group {
   std::vector<Running> running;
-  std::uint64_t left = 0;       ///< steps to the end of the slice
-  std::uint64_t clock = 0;      ///< steps of the heap that is traced
-  bool begun = false;           ///< a piece of the slice
-  std::uint64_t under_way = 0;  ///< its steps
-  double seconds = 0.0;         ///< simulated by them
+  std::uint64_t left = 0;         ///< steps to the end of the slice
+  std::uint64_t clock = 0;        ///< steps of the heap that is traced
+  bool begun = false;             ///< a piece of the slice
+  std::uint64_t begun_steps = 0;  ///< its steps
+  double seconds = 0.0;           ///< simulated by them
   std::vector<WorldId> ids() const {
     std::vector<WorldId> all;
     for (const Running& r : running) all.push_back(r.heap->id());
@@ -89,18 +89,18 @@ class Run {
       if (r.heap->follows()) seconds = std::min(seconds, step_);
     for (Running& r : group.running)
       if (r.heap->follows() && seconds > 0.0) r.heap->follow(seconds);
-    group.under_way = steps_in(seconds, step_).count();
-    for (Running& r : group.running) r.heap->ask(seconds, group.under_way == group.left);
-    if (group.under_way > 0) group.seconds = solver_.begin(group.ids(), seconds);
+    group.begun_steps = steps_in(seconds, step_).count();
+    for (Running& r : group.running) r.heap->ask(seconds, group.begun_steps == group.left);
+    if (group.begun_steps > 0) group.seconds = solver_.begin(group.ids(), seconds);
   }
 
   void end_piece(Group& group) {
-    if (group.under_way == 0) return;
+    if (group.begun_steps == 0) return;
     solver_.finish(group.ids());
     for (Running& r : group.running) r.heap->advanced(group.seconds);
-    const bool due = tracing_ && group.clock + group.under_way == next_sample(group.clock);
-    group.clock += group.under_way;
-    group.left -= group.under_way;
+    const bool due = tracing_ && group.clock + group.begun_steps == next_sample(group.clock);
+    group.clock += group.begun_steps;
+    group.left -= group.begun_steps;
     if (due)
       for (Running& r : group.running) sample(*r.heap);
   }

@@ -1,4 +1,6 @@
-/// Settles several heaps of one solver, which are stepped together until each of them is finished.
+/// Settles several heaps with one solver, in which each heap is a world. The heaps are stepped together; when one is
+/// finished, the next one takes its place, so that a GPU always has enough work. What a heap does at each stage is
+/// decided in heap_core.hpp.
 #pragma once
 
 #include "pour/heap_core.hpp"
@@ -12,7 +14,7 @@ struct HeapSource {
   std::size_t count = 0;
   /// Returns the next heap; called in order when there is room for one more.
   std::function<HeapCore&(std::size_t number)> next;
-  /// Called when a heap is at rest or out of time; it is not used any more afterwards.
+  /// Called when a heap is at rest or out of time; it is not used afterwards.
   std::function<void(std::size_t number)> over;
 };
 

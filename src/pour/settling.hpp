@@ -5,7 +5,8 @@
 ///                                                                      which parts were taken out starts in repair
 ///
 /// A check is a probe, verify or recheck. If many parts move in one, it is repeated for the whole heap. If a few do,
-/// these are checked again alone, until they stand or have had their chances: then they are named as unstable.
+/// these are checked again alone, until they rest or the number of checks is used up: then they are reported as
+/// unstable.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
@@ -39,7 +40,7 @@ inline constexpr Phase press{       true,  Stiffness::stiff, 1.0,       false,  
 inline constexpr Phase probe{       true,  Stiffness::rigid, 0.9,       true,     Sleep::by_part,   false};
 /// Pressed again without remembered forces, as when this solver continues from the poses.
 inline constexpr Phase verify{      true,  Stiffness::stiff, 0.9,       true,     Sleep::by_island, false};
-/// The few parts that moved in the last check are checked again, as in verify. All others sleep until one of these goes.
+/// The few parts that moved in the last check are checked again, as in verify. All others sleep until one of these moves.
 inline constexpr Phase recheck{     true,  Stiffness::stiff, 0.9,       true,     Sleep::by_touch,  true};
 /// A heap given at rest continues on stiff contacts: softer or coarser ones would let it sink.
 inline constexpr Phase hold = press;

@@ -5,6 +5,7 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
+#include "bin_scenes/output/image_channel.hpp"
 #include "heap_handle.hpp"
 #include "scene_data.hpp"
 #include "scene_stream.hpp"
@@ -128,6 +129,29 @@ py::object picture(py::object self) {
   return taken.bits == 8 ? array_of(data.picture_bytes(), shape, self) : array_of(taken.counts, shape, self);
 }
 
+/// The grey image; None of a range sensor whose grey image was not asked for.
+py::object gray(py::object self) {
+  ImageData& data = *self.cast<ImagePtr>();
+  if (!data.has_gray()) return py::none();
+  return array_of(data.gray(), {data.image.height, data.image.width}, self);
+}
+
+/// As the files of the command line hold it; None where the image has no such channel.
+py::object channel(const ImageData& data, const std::string& name) {
+  const ImageChannel* found = find_image_channel(name);
+  if (!found) {
+    std::string known;
+    for (const ImageChannel& other : image_channels()) known += (known.empty() ? "" : ", ") + other.name;
+    throw input_error("an image has no channel of this name", name, "take one of " + known);
+  }
+  const Picture made = found->counts(data.image);
+  if (made.channels == 0) return py::none();
+  std::vector<py::ssize_t> shape = {found->height(data.image), found->width(data.image)};
+  if (made.channels > 1) shape.push_back(made.channels);
+  if (made.bits == 16) return copied(made.counts.data(), shape);
+  return copied(std::vector<std::uint8_t>(made.counts.begin(), made.counts.end()).data(), shape);
+}
+
 void bind_image(py::module_& m) {
   py::class_<ImageData, ImagePtr>(m, "Image")
       .def("__reduce__", no_pickle("Send arrays that you need of it, such as image.depth"))
@@ -155,6 +179,8 @@ void bind_image(py::module_& m) {
       .def_property_readonly("snr", measured(&RangeImage::snr))
       .def_property_readonly("validity", measured(&RangeImage::validity))
       .def_property_readonly("picture", picture)
+      .def_property_readonly("gray", gray)
+      .def("channel", channel, py::arg("name"))
       .def_property_readonly("points", cloud(&ImageData::points))
       .def_property_readonly("normals", cloud(&ImageData::normals))
       .def_property_readonly("truth_depth", truth(&RangeImage::truth_depth, &RangeImage::depth))
@@ -290,11 +316,12 @@ void bind_session(py::module_& m) {
              const py::gil_scoped_release waiting;
              own.session->close();
            })
-      .def("generate",
-           [](const SessionHolder& own, const Request& request, std::size_t ahead, bool images, bool grasps) {
-             return std::unique_ptr<Scenes>(
-                 new Scenes{std::make_unique<SceneStream>(own.session, request, ahead, Wanted{images, grasps})});
-           })
+      .def(
+          "generate",
+          [](const SessionHolder& own, const Request& request, std::size_t ahead, bool images, bool grasps, bool gray) {
+            return std::unique_ptr<Scenes>(
+                new Scenes{std::make_unique<SceneStream>(own.session, request, ahead, Wanted{images, grasps, gray})});
+          })
       .def("heap", [](const SessionHolder& own, const Request& request) {
         const py::gil_scoped_release waiting;
         return std::make_unique<HeapHandle>(own.session, request, poll_signals);
@@ -330,8 +357,8 @@ void bind_heap(py::module_& m) {
           waiting)
       .def(
           "scene",
-          [](HeapHandle& heap, bool images, bool grasps) {
-            return heap.scene(Wanted{images, grasps}, poll_signals);
+          [](HeapHandle& heap, bool images, bool grasps, bool gray) {
+            return heap.scene(Wanted{images, grasps, gray}, poll_signals);
           },
           waiting);
 }

@@ -2,6 +2,8 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/sensor/gray_image.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <utility>
 
@@ -26,13 +28,24 @@ std::vector<std::uint8_t>& ImageData::picture_bytes() {
   return picture_bytes_;
 }
 
+bool ImageData::has_gray() const {
+  return !image.gray.empty() || !sensor_model(image.sensor.model).gray;
+}
+
+std::vector<std::uint8_t>& ImageData::gray() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (gray_.empty()) gray_ = gray_of(image);
+  return gray_;
+}
+
 Generator::Options options_of(const Wanted& wanted, const Request& request, const std::string& caller) {
   if (wanted.grasps && request.grippers.empty()) {
-    throw input_error("grasps are asked for, but the request has no grippers", caller,
+    throw input_error("grasps are requested, but the request has no grippers", caller,
                       "add for instance grippers=[\"robotiq_2f_85\"]");
   }
   Generator::Options options;
   options.render = wanted.images;
+  options.gray = wanted.gray;
   options.grasps = wanted.grasps;
   return options;
 }

@@ -13,7 +13,7 @@
 
 namespace bin_scenes::python {
 
-/// An image with its organised cloud and the bytes of its picture, which are made when they are first asked for.
+/// An image with its organised cloud and the bytes of its picture, which are made on first use.
 class ImageData {
  public:
   explicit ImageData(RangeImage made) : image(std::move(made)) {}
@@ -22,16 +22,18 @@ class ImageData {
   std::vector<std::array<float, 3>>& normals();
   /// Counts of 8 bits in a byte each.
   std::vector<std::uint8_t>& picture_bytes();
+  bool has_gray() const;              ///< whether gray() may be called
+  std::vector<std::uint8_t>& gray();  ///< levels of gray_of()
 
  private:
   std::mutex mutex_;
-  std::vector<std::uint8_t> picture_bytes_;
+  std::vector<std::uint8_t> picture_bytes_, gray_;
   std::vector<std::array<float, 3>> points_, normals_;
 };
 
 /// What is made of a scene in addition to its poses.
 struct Wanted {
-  bool images = true, grasps = false;
+  bool images = true, grasps = false, gray = false;
 };
 
 /// Throws an input Error where the request has no grippers, but grasps are wanted.

@@ -1,4 +1,5 @@
-/// The scenes of a request as a Python iterator, which returns them one by one while further scenes are made.
+/// The scenes of a request as a Python iterator. It returns them in order, one by one, while further scenes are made in
+/// other threads. Python's `Generator.generate()` returns such a stream.
 #pragma once
 
 #include "scene_data.hpp"

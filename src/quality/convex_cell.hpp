@@ -13,7 +13,7 @@ class ConvexCell {
  public:
   explicit ConvexCell(const Aabb& box);
 
-  /// Keeps what lies in the half-space. Lengths below 1e-10 of the box's diagonal count as zero.
+  /// Intersects the cell with the half-space. Lengths below 1e-10 of the box's diagonal count as zero.
   void clip(const Plane& plane);
   bool empty() const { return faces_.empty(); }
 

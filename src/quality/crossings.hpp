@@ -1,4 +1,6 @@
-/// Finds the places at which the surfaces of two placed meshes intersect.
+/// Finds the places at which the surfaces of two placed meshes intersect, as short segments that two triangles share.
+/// The measure of penetration starts from these segments. They are grouped by the closed curves that they form; the
+/// depth of an overlap is not computed here.
 #pragma once
 
 #include "tree_pair.hpp"

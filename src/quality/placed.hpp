@@ -1,4 +1,5 @@
-/// The parts of a scene with their poses and search trees, as the quality measures use them.
+/// The parts of a scene with their poses, search trees and bounding boxes, as the quality measures use them. The list
+/// is made once for a scene and shared by penetration, gap and escaped parts.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -34,7 +34,7 @@ struct Facet {
   explicit Facet(const TrianglePoints& points, std::size_t triangle = 0)
       : points(points), box(bounds(points)), triangle(triangle) {}
 
-  /// Unit; 0 of one without area. Made when it is first asked for, because most facets meet nothing.
+  /// Unit normal; 0 for a triangle without area. Computed on first use, because most facets intersect nothing.
   const Vec3& normal() const {
     if (!normal_) normal_ = (points[1] - points[0]).cross(points[2] - points[0]).normalized();
     return *normal_;
@@ -48,7 +48,7 @@ struct Facet {
   mutable std::optional<Vec3> normal_;
 };
 
-/// The triangles of a leaf, moved by a pose: kept while the same leaf is asked for.
+/// The triangles of a leaf, moved by a pose: kept while the same leaf is used.
 class PlacedLeaf {
  public:
   PlacedLeaf(const MeshQuery& query, const Pose& pose) : query_(query), pose_(pose) {}
@@ -130,7 +130,8 @@ void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose
   }
 }
 
-/// Finds in single precision which nodes of two placed trees are certainly apart, by the axes of both frames.
+/// Rejects pairs of nodes of two placed trees whose boxes are certainly apart, by a separating-axis test in single
+/// precision with the axes of both frames.
 class NodePair {
  public:
   NodePair(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance)

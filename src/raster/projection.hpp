@@ -30,7 +30,7 @@ class Projection {
     std::vector<std::vector<Covering>> bands;
   };
 
-  /// @param reach  pixels from its centre to the farthest place of a pixel that is asked for; 0: centres only
+  /// @param reach  pixels from the centre of a pixel to its farthest point that is needed; 0: centres only
   Projection(const Lens& lens, double near, double far, double reach)
       : lens_(lens), nearest_(1.0 / near), farthest_(1.0 / far), reach_(reach + on_edge) {}
 

@@ -145,8 +145,17 @@ struct Scenery::State {
     const auto number = static_cast<std::uint32_t>(bodies.size());
     const std::size_t end = first_face + tree->planes.size();
     while (body_at.size() * faces_a_step < end) body_at.push_back(number);
-    bodies.push_back({std::move(tree), std::move(model), pose, label, line, id, part, first_face,
-                      pose.orientation.toRotationMatrix()});
+    Body body;
+    body.tree = std::move(tree);
+    body.model = std::move(model);
+    body.pose = pose;
+    body.label = label;
+    body.line = line;
+    body.id = id;
+    body.part = part;
+    body.first_face = first_face;
+    body.turn = pose.orientation.toRotationMatrix();
+    bodies.push_back(std::move(body));
   }
 
   bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }

@@ -14,10 +14,10 @@ namespace bin_scenes {
 /// one comes.
 class ClearSight {
  public:
-  /// Of a lens that distorts, or a mesh that reaches behind the light, it says nothing: nowhere is sight clear.
+  /// For a lens with distortion, or a mesh that extends behind the light, no region is marked as clear.
   ClearSight(const Scenery& scenery, const Lens& light, const Pose& pose);
 
-  /// Whether nothing lies between the light and a point of a face, or of the floor. False: a ray has to be asked.
+  /// Whether nothing is between the light and a point of a face or of the floor. False: a ray must be cast.
   /// @param there, pixel  the point in the light's frame and field
   bool clear(const Vec3& point, const Vec3& there, const Eigen::Vector2d& pixel, const Scenery::Face& face) const;
 

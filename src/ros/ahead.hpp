@@ -1,5 +1,6 @@
-/// Makes scenes ahead of demand in a thread of its own, so that a request for the next scene is answered without
-/// waiting.
+/// Makes scenes ahead of demand in a thread of its own, so that the node answers a request for the next scene without
+/// waiting. When a scene of another request is shown, the scenes that were made ahead are discarded. The number of
+/// waiting scenes is limited.
 #pragma once
 
 #include "publication.hpp"

@@ -1,4 +1,5 @@
-/// Writes a scene to a bag without a ROS master.
+/// Writes a scene to a bag, without a ROS master. The bag holds the topics and types that a recording of the live node
+/// would hold, all with one stamp. The messages are made in scene_message.hpp and its neighbours.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

@@ -14,7 +14,7 @@ namespace bin_scenes {
 
 struct Frames {
   std::string bin = "bin";       ///< frame of the bin: centre of the floor's top, z up
-  std::string parent = "world";  ///< frame the bin stands in; empty: the bin frame is the root
+  std::string parent = "world";  ///< parent of the bin frame; empty: the bin frame is the root
   Pose bin_pose;                 ///< from the bin frame to `parent`
   std::string prefix;  ///< prefix of the frames of parts and sensors, such as "left/", which distinguishes several bins
 };

@@ -24,7 +24,7 @@ void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vect
 /// The part that a call picks by a grasp. Throws an input Error if the grasp is none of that part, or not free.
 PartPick picked_by(const SceneGrasps& all, const Request& request, const bin_scenes_msgs::PickPart::Request& asked);
 
-/// Fingers, cups and palms, green for the best score and red for none. What was shown before goes.
+/// Fingers, cups and palms, green for the best score and red for none. Earlier markers are deleted.
 visualization_msgs::MarkerArray grasp_markers(const std::vector<SceneGrasp>& grasps, const Request& request,
                                               const Frames& frames, const ros::Time& stamp);
 

@@ -37,12 +37,12 @@ sensor_msgs::PointField field(const char* name, std::size_t offset, std::uint8_t
 }
 
 template <class Pixel>
-sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const RangeImage& image, const std::string& encoding,
+sensor_msgs::Image plane(const std::vector<Pixel>& pixels, int width, int height, const std::string& encoding,
                          const std_msgs::Header& header) {
   sensor_msgs::Image message;
   message.header = header;
-  message.width = static_cast<std::uint32_t>(image.width);
-  message.height = static_cast<std::uint32_t>(image.height);
+  message.width = static_cast<std::uint32_t>(width);
+  message.height = static_cast<std::uint32_t>(height);
   message.encoding = encoding;
   message.is_bigendian = false;
   message.step = static_cast<std::uint32_t>(message.width * sizeof(Pixel));
@@ -168,31 +168,46 @@ sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const st
 }
 
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header) {
-  return plane(rectified_depth(image), image, sensor_msgs::image_encodings::TYPE_32FC1, header);
+  return plane(rectified_depth(image), image.width, image.height, sensor_msgs::image_encodings::TYPE_32FC1, header);
 }
 
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header) {
-  return plane(rectified(image.label, std::uint16_t{0}, image), image, sensor_msgs::image_encodings::TYPE_16UC1,
-               header);
+  return plane(rectified(image.label, std::uint16_t{0}, image), image.width, image.height,
+               sensor_msgs::image_encodings::TYPE_16UC1, header);
 }
 
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header) {
   const auto outside = static_cast<std::uint8_t>(Validity::nothing);
-  return plane(rectified(image.validity, outside, image), image, sensor_msgs::image_encodings::MONO8, header);
+  return plane(rectified(image.validity, outside, image), image.width, image.height,
+               sensor_msgs::image_encodings::MONO8, header);
 }
 
-std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header) {
-  const Picture& picture = image.picture;
+namespace {
+
+std::optional<sensor_msgs::Image> message_of(const Picture& picture, int width, int height,
+                                             const std_msgs::Header& header) {
   if (picture.channels == 0) return std::nullopt;
   const std::string encoding = (picture.channels == 3 ? "rgb" : "mono") + std::to_string(picture.bits);
   sensor_msgs::Image message;
   if (picture.bits == 16) {
-    message = plane(picture.counts, image, encoding, header);
+    message = plane(picture.counts, width, height, encoding, header);
   } else {
-    message = plane(std::vector<std::uint8_t>(picture.counts.begin(), picture.counts.end()), image, encoding, header);
+    message =
+        plane(std::vector<std::uint8_t>(picture.counts.begin(), picture.counts.end()), width, height, encoding, header);
   }
   message.step *= static_cast<std::uint32_t>(picture.channels);
   return message;
+}
+
+}  // namespace
+
+std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header) {
+  return message_of(image.picture, image.width, image.height, header);
+}
+
+std::optional<sensor_msgs::Image> channel_message(const ImageChannel& channel, const RangeImage& image,
+                                                  const std_msgs::Header& header) {
+  return message_of(channel.counts(image), channel.width(image), channel.height(image), header);
 }
 
 std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header) {

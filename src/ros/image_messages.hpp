@@ -2,6 +2,7 @@
 /// stamp and one frame.
 #pragma once
 
+#include "bin_scenes/output/image_channel.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 
 #include <sensor_msgs/CameraInfo.h>
@@ -40,6 +41,9 @@ sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
 /// mono8, mono16, rgb8 or rgb16, as taken; none of a sensor that takes no picture.
 std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header);
+/// The same of a channel of the table.
+std::optional<sensor_msgs::Image> channel_message(const ImageChannel& channel, const RangeImage& image,
+                                                  const std_msgs::Header& header);
 /// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. None of a laser_line, whose
 /// rows are profiles: no camera model describes them. Throws an input Error unless K has 9 values.
 std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header);

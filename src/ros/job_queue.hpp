@@ -1,4 +1,4 @@
-/// Jobs that change what lies in the bin, one after the other in one thread, and how each of them ends.
+/// Jobs that change the content of the bin. They run one after the other in one thread, and each reports how it ended.
 ///
 ///     action goals ─┐
 ///     service calls ├──► waiting ──► running ──► committed ──► ended      answer() is called once, at the end
@@ -63,7 +63,7 @@ class Job {
  private:
   friend class JobQueue;
   void run();
-  bool end();  ///< false if it has ended before
+  bool end();  ///< marks the job as ended; returns false if it was already
 
   const std::string name_;
   Work work_;

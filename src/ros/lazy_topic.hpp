@@ -1,4 +1,6 @@
-/// A latched topic whose message is made only if there is a subscriber.
+/// A latched topic whose message is made only if there is a subscriber. Images and clouds use it, because rendering
+/// them is the expensive part of a scene. Later subscribers receive the message of the present scene, never of an older
+/// one.
 #pragma once
 
 #include "latched.hpp"
@@ -17,18 +19,18 @@ namespace bin_scenes {
 struct LazyTopicOptions {
   ros::NodeHandle node;
   std::string name;
-  std::function<void()> connected;  ///< somebody has subscribed; called in the queue of `node`, answered by show()
+  std::function<void()> connected;  ///< called in the queue of `node` when a subscriber arrives; it should call show()
   /// Subscribers of the same process get the message itself. roscpp writes out every message of a topic that it latches
   /// (TopicManager::publish), so that this topic keeps the last one for later subscribers itself.
   bool in_process = false;
 };
 
-/// A plain latched publisher would hand the message of an older scene to the first subscriber of a newer one that
-/// nobody has looked at yet. This one forgets it.
+/// A plain latched publisher would send the message of an older scene to the first subscriber of a newer scene. This
+/// class forgets the message when the scene changes.
 template <class Message>
 class LazyTopic {
  public:
-  /// `make` gives the message of the present state, or none. The caller sees to it that one thread at a time is here.
+  /// @param make  returns the message of the present state, or none. Only one thread at a time may use the object.
   LazyTopic(LazyTopicOptions options, std::function<std::optional<Message>()> make)
       : options_(std::move(options)), make_(std::move(make)) {
     advertise();
@@ -38,7 +40,7 @@ class LazyTopic {
 
   bool wanted() const { return publisher_.getNumSubscribers() > 0; }
 
-  /// There is something new to say, or nothing any more: says it to those who listen, else waits until somebody does.
+  /// Call when the state has changed: publishes the new message if there are subscribers, otherwise when one arrives.
   void renew() {
     const bool stale = last_ != nullptr;
     last_.reset();
@@ -47,7 +49,7 @@ class LazyTopic {
     publisher_.shutdown();  // nothing else makes roscpp forget what it keeps for later subscribers
     advertise();
   }
-  /// Publishes what has not been published yet, if somebody listens.
+  /// Publishes the message of the present state if that has not been done and there is a subscriber.
   void show() {
     if (last_ || !wanted()) return;
     std::optional<Message> message = make_();

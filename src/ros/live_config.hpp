@@ -1,4 +1,5 @@
-/// Parameters that may be changed while the node runs (cfg/BinScenes.cfg).
+/// Parameters that may be changed while the node runs, by dynamic_reconfigure (cfg/BinScenes.cfg lists them). A change
+/// is passed on to the jobs and to the publication; other parameters are read once at the start (settings.hpp).
 #pragma once
 
 #include "publication.hpp"

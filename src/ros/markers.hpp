@@ -1,4 +1,5 @@
-/// Makes the markers with which RViz shows the parts and the bin of a scene.
+/// Makes the markers with which RViz shows a scene: the parts, the bin, and the contacts of a recorded heap. The
+/// functions return messages and publish nothing.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

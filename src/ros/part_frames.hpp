@@ -34,7 +34,7 @@ class PartFrames {
              std::function<void()> clock_changed);
 
   /// Shows the parts of a scene: chooses its stamp, sends the transforms with it, and returns it. Stamps grow always,
-  /// also under a clock that stands still or has not begun.
+  /// even if the clock does not advance or has not started.
   ros::Time show(tf2_msgs::TFMessage parts);
   /// (Hz), (s)
   void set(double rate, double span);

@@ -5,6 +5,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <list>
 
 namespace bin_scenes {
 
@@ -25,6 +26,7 @@ struct Publication::SensorTopics {
   LazyTopic<sensor_msgs::Image> depth;
   LazyTopic<sensor_msgs::CameraInfo> camera_info, picture_info;
   LazyTopic<sensor_msgs::Image> labels, validity, picture;
+  std::list<LazyTopic<sensor_msgs::Image>> channels;  ///< those of the table that have a topic
 
   SensorTopics(Publication& p, const std::string& name_space)
       : space(name_space),
@@ -34,7 +36,15 @@ struct Publication::SensorTopics {
         picture_info(options(p, topic::picture_info), p.from_image<sensor_msgs::CameraInfo>(*this, model_of_picture)),
         labels(options(p, topic::labels), p.from_image<sensor_msgs::Image>(*this, label_message)),
         validity(options(p, topic::validity), p.from_image<sensor_msgs::Image>(*this, validity_message)),
-        picture(options(p, topic::picture), p.from_image<sensor_msgs::Image>(*this, picture_message)) {}
+        picture(options(p, topic::picture), p.from_image<sensor_msgs::Image>(*this, picture_message)) {
+    for (const ImageChannel& channel : image_channels())
+      if (!channel.topic.empty())
+        channels.emplace_back(
+            options(p, channel.topic.c_str()),
+            p.from_image<sensor_msgs::Image>(*this, [channel](const RangeImage& image, const std_msgs::Header& header) {
+              return channel_message(channel, image, header);
+            }));
+  }
 
   LazyTopicOptions options(Publication& p, const char* name) const {
     return {p.node_, space + name, [&p] { p.show_images(); }, p.in_process_};
@@ -60,7 +70,8 @@ struct Publication::SensorTopics {
 
   bool wanted() const {
     return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted() ||
-           picture.wanted() || picture_info.wanted();
+           picture.wanted() || picture_info.wanted() ||
+           std::any_of(channels.begin(), channels.end(), [](const auto& topic) { return topic.wanted(); });
   }
   void renew() {
     points.renew();
@@ -70,6 +81,7 @@ struct Publication::SensorTopics {
     validity.renew();
     picture.renew();
     picture_info.renew();
+    for (auto& topic : channels) topic.renew();
   }
   void show() {
     points.show();
@@ -79,6 +91,7 @@ struct Publication::SensorTopics {
     validity.show();
     picture.show();
     picture_info.show();
+    for (auto& topic : channels) topic.show();
   }
 };
 
@@ -149,7 +162,7 @@ void Publication::render(MadeScene& made, bool all, const RunHooks& hooks) {
     hooks.progress(progress);
   }
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.loaded, these, made.images);
+  rig_.render(made.scene, made.loaded, these, made.images, false);
 }
 
 Publication::Counts Publication::counts() const {
@@ -214,7 +227,7 @@ bool Publication::make_images(Shown& shown) {
   const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
   if (count == 0) return false;
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.loaded, missing, made.images);
+  rig_.render(made.scene, made.loaded, missing, made.images, false);
   renderings_ += count;
   return true;
 }

@@ -29,7 +29,7 @@ class Publication {
   void render(MadeScene& made, bool all, const RunHooks& hooks);
   /// Shows a scene under a new stamp, and returns it as published. If it throws, the scene before stays.
   bin_scenes_msgs::Scene show(MadeScene made);
-  /// Of the scene shown, which is published again now and then; zero: none is.
+  /// Stamp of the scene that is shown, with which it is published again from time to time; zero: no scene is shown.
   ros::Time stamp();
   void set_tf(double rate, double span) { frames_.set(rate, span); }
   void set_publish_rate(double rate);

@@ -1,4 +1,5 @@
-/// A bag file that appears either complete or not at all.
+/// A bag file that appears either complete or not at all. Messages are written with the header that a recording of the
+/// node would have, so that tools see no difference. Which messages are written is decided by the caller.
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"

@@ -25,7 +25,7 @@ struct LiveSettings {
   std::string solver;  ///< solver.type
   bool noise = true;   ///< false: every random effect of the sensors is off
 };
-/// What `finish` and `solver` may be, "request" first: as the request says.
+/// Possible values of `finish` and `solver`. The first, "request", leaves the value of the request unchanged.
 const std::vector<std::string>& live_finishes();
 const std::vector<std::string>& live_solvers();
 
@@ -57,7 +57,7 @@ class SceneJobs {
   /// For diagnostics.
   struct Status {
     std::size_t jobs = 0;                                            ///< number of jobs that wait or run
-    std::string running;                                             ///< name of the job, ""
+    std::string running;                                             ///< name of the running job; empty: none
     double running_s = 0.0;                                          ///< s since it began
     std::size_t made = 0, failed = 0, cancelled = 0, set_apart = 0;  ///< jobs that ended, since the start
     std::size_t set_apart_in_a_row = 0;

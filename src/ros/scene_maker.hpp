@@ -1,4 +1,5 @@
-/// Makes the scenes of one bin, and keeps their heap so that parts can be removed and added.
+/// Makes the scenes of one bin, and keeps the heap of the present scene so that parts can be removed and added. It
+/// stands between the services of the node and the library (pour/heap.hpp). It publishes nothing.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
@@ -20,7 +21,7 @@ struct MadeScene {
 /// How parts are moved before they are removed.
 struct Lift {
   Vec3 direction = Vec3::UnitZ();  ///< bin frame, any length
-  double distance = 0.0;           ///< m; 0: they vanish where they lie
+  double distance = 0.0;           ///< m; 0: the parts are removed without being moved
 };
 
 /// One thread at a time. All calls throw Error; those that make a scene leave the heap that is kept as it was, but for
@@ -37,7 +38,7 @@ class SceneMaker {
   /// Onto the heap, or into the bin if it was emptied.
   MadeScene add(const std::vector<PartLine>& lines, const RunHooks& hooks);
   MadeScene settle(const RunHooks& hooks);
-  /// The heap of the scene that is kept as it lies now, for grasps(): not judged, and without images.
+  /// Returns the present heap as a scene without judgement and images, for grasps().
   MadeScene heap_as_it_lies(const char* purpose) const;
   /// What cameras see of them only if `images` are those of the scene.
   SceneGrasps grasps(const MadeScene& made, const std::vector<RangeImage>& images, const RunHooks& hooks) const;

@@ -1,4 +1,5 @@
-/// Converts a scene to the messages that describe it.
+/// Converts a scene, its report, its sensors and its bin to messages (msg/). The functions are free of side effects and
+/// are tested by reading every field of the message.
 #pragma once
 
 #include "bin_scenes/scene/scene.hpp"

@@ -54,7 +54,7 @@ void visit(Visitor& v, Texture& texture) {
 
 template <class Visitor>
 void visit(Visitor& v, Surface& surface) {
-  std::string material;  // its values have been read, and are what is written
+  std::string material;  // name of a material whose values have been read; the values are written instead of the name
   v.field({"material", "",
            "name of a file of config/materials whose values are the defaults here: steel_brushed, plastic_black, ...",
            anything, false},
@@ -174,7 +174,8 @@ void visit(Visitor& v, PartLine& part) {
 
 template <class Visitor>
 void visit(Visitor& v, Pour& pour) {
-  // Poses read from an earlier scene are in the part lines by then: the request written back stands on its own.
+  // Poses read from an earlier scene are in the part lines by then: the request that is written back needs no other
+  // file.
   v.field({"pattern", "",
            "rain: parts enter just above the heap as it grows; grid: all at once on a 3-D grid above the bin; given: "
            "poses come with the parts or from scene"},

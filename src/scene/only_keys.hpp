@@ -1,4 +1,5 @@
-/// A visitor that forwards only some keys of a table, for a file that contains only these.
+/// A visitor that forwards only some keys of a table. scene.json describes bin, models and sensors with entries of the
+/// request's tables in this way, so that each key is described once.
 #pragma once
 
 #include "bin_scenes/scene/key.hpp"
@@ -13,7 +14,7 @@ namespace bin_scenes {
 template <class Visitor>
 class OnlyKeys {
  public:
-  /// @param written  false: the keys are left out when written, whatever the table says
+  /// @param written  false: the keys are not written, even if the table marks them as written
   OnlyKeys(Visitor& visitor, std::initializer_list<std::string> names, bool written = true)
       : visitor_(visitor), names_(names), written_(written) {}
 

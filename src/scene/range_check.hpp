@@ -20,7 +20,7 @@ struct Bin;
 struct BinKeys;
 struct Sensor;
 
-/// "at least 0 and at most 10", as messages say it; "" of `anything`.
+/// "at least 0 and at most 10", as messages state it; "" for `anything`.
 std::string text_of(const Range& range);
 
 /// Throws an input Error at `path` unless `value` is finite and within the key's range.

@@ -1,4 +1,4 @@
-/// The tables of what scene.json says of parts and in its report, in the order of the file (see scene/keys.hpp).
+/// The tables of the parts and of the report in scene.json, in the order of the file (see scene/keys.hpp).
 /// docs/use/scene.md is generated from them.
 #pragma once
 

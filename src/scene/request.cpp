@@ -94,7 +94,7 @@ bool ends_upright(const Motion& motion, const Vec3& gravity) {
 
 void check_bin(const Bin& bin, const Vec3& gravity) {
   check_motion("bin.motion", bin.motion);
-  if (!bin.motion.belt.isZero()) refuse("bin.motion.belt", "is of parts only", "make the conveyor a fixed part");
+  if (!bin.motion.belt.isZero()) refuse("bin.motion.belt", "applies to parts only", "make the conveyor a fixed part");
   if (!ends_upright(bin.motion, gravity))
     refuse("bin.motion.poses", "does not end upright", "turn the bin back, or turn gravity instead");
   if (bin.kind == Bin::Kind::mesh && bin.mesh.empty()) refuse("bin.mesh", "is empty", "name a mesh file");

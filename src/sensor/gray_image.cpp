@@ -1,5 +1,8 @@
 #include "bin_scenes/sensor/gray_image.hpp"
 
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +10,8 @@ namespace bin_scenes {
 
 std::vector<std::uint8_t> gray_of(const RangeImage& image) {
   if (!image.gray.empty()) return image.gray;
+  if (sensor_model(image.sensor.model).gray)
+    throw input_error("has no grey image", "sensor " + image.sensor.name, "ask for it: Generator::Options::gray");
   std::vector<std::uint8_t> levels;
   levels.reserve(image.intensity.size());
   for (const float value : image.intensity) {

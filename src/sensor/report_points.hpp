@@ -1,5 +1,6 @@
 /// Converts the depths that a true device measured into those that it reports with its assumed calibration
-/// (sensor/calibration.hpp).
+/// (sensor/calibration.hpp). Pixels whose point has no valid depth afterwards become invalid. Each sensor model
+/// provides the conversion of one depth.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

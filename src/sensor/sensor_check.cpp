@@ -72,8 +72,8 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
     throw input_error("model " + sensor.model + " measures the truth, whatever its calibration", key + ".calibration",
                       "leave it out, or take another model");
   if (sensor.settings.of<CalibrationSettings>().range > 0.0 && sensor_model(sensor.model).report)
-    throw input_error("model " + sensor.model + " triangulates: it measures no ranges", key + ".calibration.range",
-                      "give baseline instead");
+    throw input_error("model " + sensor.model + " measures by triangulation and has no range error",
+                      key + ".calibration.range", "give baseline instead");
   for (const SensorModel* model : sensor_models())
     if (model->check) model->check(sensor, key);
   if (!(sensor.far >= sensor.near)) throw input_error("is nearer than near", key + ".far", "m, beyond near");

@@ -19,7 +19,7 @@ struct KeysOfModel {
 template <class Visitor>
 void visit(Visitor& v, KeysOfModel& section);
 
-/// A visitor of tables as a KeyVisitor.
+/// Presents a visitor of tables (a template) to sensor models as a KeyVisitor (an interface).
 template <class Visitor>
 class AsKeyVisitor final : public KeyVisitor {
  public:
@@ -254,7 +254,7 @@ void visit(Visitor& v, Views& views) {
   v.field({"target", "m", "what they look at; [0, 0, 0] is the centre of the floor"}, views.target);
 }
 
-/// From where it sees, and how far.
+/// Keys of the view of a sensor: its name, model, lens, pose and range.
 template <class Visitor>
 void visit_view(Visitor& v, Sensor& sensor) {
   v.field({"name", "", "names frames and files; letters, digits, _ and -, different for each sensor"}, sensor.name);

@@ -56,14 +56,14 @@ void flag_what_stands_inside(const Sensor& sensor, Scene& scene, const std::vect
 SensorRig::SensorRig() : cache_(std::make_unique<SceneryCache>()) {}
 SensorRig::~SensorRig() = default;
 
-std::vector<RangeImage> SensorRig::render(Scene& scene, const LoadedRequest& loaded) {
+std::vector<RangeImage> SensorRig::render(Scene& scene, const LoadedRequest& loaded, bool gray) {
   std::vector<RangeImage> images(scene.sensors.size());
-  render(scene, loaded, std::vector<bool>(images.size(), true), images);
+  render(scene, loaded, std::vector<bool>(images.size(), true), images, gray);
   return images;
 }
 
 void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vector<bool>& wanted,
-                       std::vector<RangeImage>& images) {
+                       std::vector<RangeImage>& images, bool gray) {
   std::vector<std::size_t> to_make;
   for (std::size_t s = 0; s < scene.sensors.size(); ++s)
     if (wanted.at(s) && images.at(s).depth.empty()) to_make.push_back(s);
@@ -76,7 +76,7 @@ void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vec
     flag_what_stands_inside(sensor, scene, loaded.parts);
     const Sensor device = true_device(scene.sensors, s, scene.seed);
     SeenWithMasks seen = see(scenery, lens_of(device), *device.pose, sensor.near, sensor.far);
-    const Draw draw{scene.seed, scene.index, s};
+    const Draw draw{scene.seed, scene.index, s, gray};
     RangeImage& image = images[s] = measure(scenery, std::move(seen.view), device, surfaces, draw);
     report_as_believed(image, device, sensor);
     count_pixels(image, scene, std::move(seen.alone));

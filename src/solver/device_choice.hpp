@@ -16,7 +16,7 @@ struct StepTimes {
   double few_s = 0.0, many_s = 0.0, together_s = 0.0;
 };
 
-/// What was measured on this machine.
+/// The times of a step that were measured on this machine, by device.
 struct DeviceFigures {
   static constexpr std::size_t few = 64, many = 384, worlds = 64;
   std::string cpu, gpu;  ///< names
@@ -28,20 +28,20 @@ struct DeviceChoice {
   std::string reason;  ///< with the figures that decided
 };
 
-/// By the measured steps: a power law over parts between few and many, continued beyond them; of several scenes, as
+/// Predicts the times from the measured steps by a power law in the number of parts. Of several scenes, as
 /// many are advanced together as were measured. The GPU is taken if it needs less than 0.8 times as long, so that noise
 /// in near ties does not decide.
 DeviceChoice choose_device(const DeviceFigures& figures, std::size_t parts, std::size_t scenes);
 
-/// The same for a request on this machine. Measures at the first need of a device and driver, then reads the figures
+/// Chooses the device for a request on this machine. Measures when a device is first needed, then reads the figures
 /// from the cache. Without a GPU nothing is measured, and no OpenGL context is made where no device file is found.
 DeviceChoice choose_device(const Request& request);
 
-/// Measured now, on the device that OpenGL gives, whatever it is. Throws an environment Error without one.
-/// @param share  of the standard size: tests measure less
+/// Measures now, on the device that OpenGL provides. Throws an environment Error if there is none.
+/// @param share  size of the measured heaps relative to the standard size; tests use less than 1
 DeviceFigures measure_devices(double share = 1.0);
 
-/// Those of the GPU of this machine, from the cache if they are there; none without a GPU.
+/// Returns the figures of this machine, from the cache if possible; none without a GPU.
 std::optional<DeviceFigures> device_figures();
 
 }  // namespace bin_scenes

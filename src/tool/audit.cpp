@@ -87,7 +87,7 @@ void print(const Json& json) {
   std::printf("%zu scenes, %zu heaps, %zu parts, %zu escaped; they lie in %s\n", json["scenes"].get<std::size_t>(),
               json["heaps"].get<std::size_t>(), json["parts"].get<std::size_t>(), json["escaped"].get<std::size_t>(),
               json["lies_in"].get<std::string>().c_str());
-  if (!json["world_told"])
+  if (!json["world_stated"])
     std::printf("no image states cam_R_w2c: up is opposite to the camera's axis, or what --up states\n");
   std::printf("%-12s %-46s %-14s %10s %10s %10s   %s\n", "key", "measure", "unit", "p50", "p95", "max",
               "above the limit");

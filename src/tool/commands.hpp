@@ -123,7 +123,7 @@ int report(const ReportOptions& options);
 
 struct ViewOptions {
   std::string scene;   ///< its folder, or its scene.json
-  std::string models;  ///< folder of the model files; empty: they lie beside or above the scene
+  std::string models;  ///< folder of the model files; empty: they are beside or above the scene
   std::string trace;   ///< .jsonl file of `generate --trace`; empty: none
   std::string out;     ///< HTML file; empty: view.html in the folder
 };

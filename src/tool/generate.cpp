@@ -114,7 +114,7 @@ void check_options(const GenerateOptions& options, const Request& request, bool 
     return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
   };
   if (asked("grasps") && request.grippers.empty()) {
-    throw input_error("grasps are asked for, but the request has no grippers", options.request,
+    throw input_error("grasps are requested, but the request has no grippers", options.request,
                       "add for instance `grippers: [robotiq_2f_85]`");
   }
   if (needs_sensors && request.sensors.empty()) {
@@ -205,6 +205,7 @@ int generate(const GenerateOptions& options) {
   std::optional<Tracing> trace;
   Generator::Options run;
   run.render = store.needs_images();
+  run.gray = store.needs_gray();
   run.grasps = store.needs_grasps();
   run.hooks.cancel = &interrupted;
   run.hooks.progress = [&](const Progress& progress) { bar.show(progress.fraction, text_of(progress)); };

@@ -1,4 +1,5 @@
-/// Handles SIGINT and SIGTERM for the commands, which then stop in an orderly manner.
+/// Handles SIGINT and SIGTERM for the commands. The first signal asks the command to stop in an orderly manner, so that
+/// no incomplete file is left. A second signal, or too long a wait, ends the program at once.
 #pragma once
 
 #include <sys/types.h>

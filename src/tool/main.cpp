@@ -46,7 +46,7 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
       "file with each part over simulated time: .csv (pose and velocity); with the contacts: .jsonl for view --trace, "
       ".bag or .mcap for RViz and Foxglove");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
-  app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
+  app.add_flag("--overwrite", o.overwrite, "generate scenes again that exist already");
   app.add_flag(
       "--verify", o.verify,
       "read scenes that are there already and make those anew whose files have changed (else only sizes count)");
@@ -76,7 +76,7 @@ void add_audit(CLI::App& app, AuditOptions& o) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   app.add_option("--out", o.out, "HTML file with the table and a histogram of each measure");
-  app.add_flag("--json", o.json, "as JSON");
+  app.add_flag("--json", o.json, "print the result as JSON");
 }
 
 void add_new(CLI::App& app, NewOptions& o) {
@@ -98,7 +98,7 @@ void add_inspect(CLI::App& app, InspectOptions& o) {
   app.add_option("--chord", o.chord, "m: largest distance of triangles from the surface of a STEP or IGES file");
   app.add_option("--angle", o.angle, "rad: between neighbouring triangles of its curved surfaces");
   app.add_option("--hulls", o.hulls, "OBJ file to write the convex hulls to, an object each (m)");
-  app.add_flag("--json", o.json, "as JSON");
+  app.add_flag("--json", o.json, "print the result as JSON");
 }
 
 void add_symmetries(CLI::App& app, SymmetriesOptions& o) {
@@ -108,13 +108,13 @@ void add_symmetries(CLI::App& app, SymmetriesOptions& o) {
   app.add_option("--tolerance", o.tolerance_mm,
                  "mm that surfaces may lie apart; left out: a hundredth of the part's size");
   app.add_option("--picture", o.picture, "PNG file of the part with its axes");
-  app.add_flag("--json", o.json, "as JSON");
+  app.add_flag("--json", o.json, "print the result as JSON");
 }
 
 void add_sensor(CLI::App& app, SensorOptions& o) {
   app.add_option("SENSOR", o.sensor, "name of a preset, or a file of sensor keys")->required();
   app.add_option("--plot", o.plot, "SVG file: predicted noise over distance, incidence and albedo");
-  app.add_flag("--json", o.json, "as JSON");
+  app.add_flag("--json", o.json, "print the result as JSON");
 }
 
 void add_realism(CLI::App& app, RealismOptions& o) {
@@ -124,9 +124,10 @@ void add_realism(CLI::App& app, RealismOptions& o) {
   app.add_option("--focal", o.focal, "focal length of the real camera, pixel; left out: that of the sensor");
   app.add_option("--scale", o.scale, "m per count of the real camera's PNG files")->capture_default_str();
   app.add_option("--unit", o.unit, "m to which all depths are rounded before; 0: not")->capture_default_str();
-  app.add_option("--crop", o.crop, "left, top, width and height of what is compared of all images, pixel")->expected(4);
+  app.add_option("--crop", o.crop, "left, top, width and height (pixel) of the region that is compared in all images")
+      ->expected(4);
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
-  app.add_flag("--json", o.json, "as JSON");
+  app.add_flag("--json", o.json, "print the result as JSON");
 }
 
 void add_submit(CLI::App& app, SubmitOptions& o) {
@@ -165,7 +166,7 @@ void add_report(CLI::App& app, ReportOptions& o) {
 
 void add_view(CLI::App& app, ViewOptions& o) {
   app.add_option("SCENE", o.scene, "folder of a scene, or its scene.json")->required();
-  app.add_option("--models", o.models, "folder of the models, if they lie neither beside nor above the scene");
+  app.add_option("--models", o.models, "folder of the models, if they are neither beside nor above the scene");
   app.add_option("--trace", o.trace, "a .jsonl file of generate --trace: shows the scene over time, with its contacts");
   app.add_option("--out", o.out, "HTML file; left out: SCENE/view.html");
 }

@@ -50,7 +50,7 @@ class ProgressBar {
 };
 
 /// The line itself, at most `columns` wide, colours not counted. `fraction` below 0.001 is not known yet, then the time
-/// spent stands for the time left.
+/// spent is used for the time left.
 std::string progress_line(double fraction, const std::string& text, double spent, std::optional<double> left,
                           std::size_t columns, bool colors);
 

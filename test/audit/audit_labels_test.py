@@ -308,7 +308,7 @@ class AuditLabels(DataSetTest):
         scenes = self.others()
         words = ("--bin", "0.24,0.2,0.15")
         result = self.audit(*words, where="others", code=0)
-        self.assertEqual((result["faults"], result["world_told"], result["heaps"]), ([], True, 2))
+        self.assertEqual((result["faults"], result["world_stated"], result["heaps"]), ([], True, 2))
         with self.subTest("pixel centres at half a pixel"):
             for scene in scenes:
                 def shift(cameras):

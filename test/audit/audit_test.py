@@ -108,7 +108,7 @@ class Audit(DataSetTest):
         camera = {key: value for key, value in CAMERA.items() if "w2c" not in key}
         self.scene([[0, 0, 20], [0, 100, 20]], camera=camera)
         told = self.audit()
-        self.assertFalse(told["world_told"])
+        self.assertFalse(told["world_stated"])
         self.assertLess(max(m["max"] for m in told["measures"]), 0.1)  # the camera looks straight down
         tipped = self.measures("--up", "0,-1,0")
         self.assertGreater(tipped["drift in 0.5 s", "mm"]["max"], 50)

@@ -169,6 +169,7 @@ class Bop(DataSetTest):
             np.testing.assert_array_equal(sample.labels, read_png(truth_png.with_name(truth_png.name + "labels.png").read_bytes()))
             snr = read_png(truth_png.with_name(truth_png.name.replace("truth_", "snr.png")).read_bytes())
             np.testing.assert_allclose(sample.snr, snr / 10, rtol=1e-6)
+            np.testing.assert_array_equal(sample.channel("snr"), snr)
             np.testing.assert_array_equal(sample.snr > 0, np.isfinite(sample.depth))
             normals = read_png(truth_png.with_name(truth_png.name + "normal.png").read_bytes())
             there = normals.any(-1)

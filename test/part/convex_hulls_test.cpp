@@ -106,14 +106,13 @@ TEST(ConvexHulls, ThreeOverlappingBoxesAreThreeHulls) {
   EXPECT_EQ(hulls.hulls.size(), 3u);
 }
 
-// Neither one cut through a ring nor one through the hole of a plate makes its hulls smaller; two do.
-TEST(ConvexHulls, RingOfPrismsKeepsItsHole) {
+/// A ring of prisms about z.
+Mesh ring_of_prisms(double inner, double outer, double height, std::uint32_t sides) {
   Mesh ring;
-  constexpr std::uint32_t sides = 24;
   for (std::uint32_t i = 0; i < sides; ++i) {
     const double u = 2 * M_PI * i / sides;
-    for (const double r : {0.02, 0.03}) {
-      for (const double z : {0.0, 0.01}) ring.vertices.push_back({r * std::cos(u), r * std::sin(u), z});
+    for (const double r : {inner, outer}) {
+      for (const double z : {0.0, height}) ring.vertices.push_back({r * std::cos(u), r * std::sin(u), z});
     }
     const std::uint32_t a = 4 * i, b = 4 * ((i + 1) % sides);
     const auto quad = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {
@@ -125,13 +124,76 @@ TEST(ConvexHulls, RingOfPrismsKeepsItsHole) {
     quad(a + 3, b + 3, b + 2, a + 2);  // top
     quad(a, b, b + 1, a + 1);          // bottom
   }
-  ring = inverted(ring);
+  return inverted(ring);
+}
+
+// Neither one cut through a ring nor one through the hole of a plate makes its hulls smaller; two do.
+TEST(ConvexHulls, RingOfPrismsKeepsItsHole) {
+  constexpr std::uint32_t sides = 24;
+  const Mesh ring = ring_of_prisms(0.02, 0.03, 0.01, sides);
   ASSERT_NEAR(mass_properties(ring).volume, 0.01 * 12 * std::sin(2 * M_PI / sides) * (9e-4 - 4e-4), 1e-12);
   const ConvexHulls hulls = convex_hulls(ring);
   EXPECT_TRUE(hulls.met) << hulls.surface_error;
   EXPECT_LE(hulls.hulls.size(), 24u);
   EXPECT_NEAR(hulls.volume_error, 0.0, 0.05);
   for (const Mesh& hull : hulls.hulls) EXPECT_GT(HullPlanes(hull).outside(Vec3(0, 0, 0.005)), 0.018);
+}
+
+/// Largest depth of points of the largest cylinder about z inside a hole of `sides` facets in any hull / radius.
+double depth_in_hole(const ConvexHulls& hulls, double radius, double from, double to, std::uint32_t sides) {
+  double most = -1;
+  const double free = radius * std::cos(M_PI / sides);
+  for (const Mesh& hull : hulls.hulls) {
+    const HullPlanes planes(hull);
+    for (int i = 0; i < 360; ++i)
+      for (const double share : {0.05, 0.5, 0.95}) {
+        const double u = M_PI * i / 180;
+        most = std::max(most, -planes.outside({free * std::cos(u), free * std::sin(u), from + share * (to - from)}));
+      }
+  }
+  return most / radius;
+}
+
+// With chords across the hole, a peg with 0.3 mm of play stuck in a ring.
+TEST(ConvexHulls, NoneIsInsideARoundHole) {
+  for (const double size : {0.1, 1.0, 6.0})
+    for (const std::uint32_t sides : {24u, 48u, 96u})
+      for (const double outer : {0.023, 0.03, 0.06}) {
+        const ConvexHulls hulls = convex_hulls(ring_of_prisms(size * 0.02, size * outer, size * 0.015, sides));
+        EXPECT_TRUE(hulls.met) << hulls.surface_error;
+        EXPECT_LT(depth_in_hole(hulls, size * 0.02, 0, size * 0.015, sides), 2e-4)
+            << size << " times, " << sides << " sides, outer radius " << outer << ", " << hulls.hulls.size();
+      }
+}
+
+// A cup: the hole ends at its bottom, which stays.
+TEST(ConvexHulls, ABlindHoleKeepsItsBottom) {
+  constexpr std::uint32_t sides = 48;
+  Mesh cup;
+  for (const auto& [r, z] :
+       {std::pair(0.02, 0.004), std::pair(0.02, 0.03), std::pair(0.024, 0.03), std::pair(0.024, 0.0)})
+    for (std::uint32_t i = 0; i < sides; ++i)
+      cup.vertices.push_back({r * std::cos(2 * M_PI * i / sides), r * std::sin(2 * M_PI * i / sides), z});
+  cup.vertices.push_back({0, 0, 0.004});
+  cup.vertices.push_back({0, 0, 0});
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t j = (i + 1) % sides;
+    cup.triangles.push_back({4 * sides, i, j});
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      cup.triangles.push_back({k * sides + i, (k + 1) * sides + i, (k + 1) * sides + j});
+      cup.triangles.push_back({k * sides + i, (k + 1) * sides + j, k * sides + j});
+    }
+    cup.triangles.push_back({4 * sides + 1, 3 * sides + j, 3 * sides + i});
+  }
+  ASSERT_GT(mass_properties(cup).volume, 0);
+  const ConvexHulls hulls = convex_hulls(cup);
+  EXPECT_TRUE(hulls.met) << hulls.surface_error;
+  EXPECT_LT(depth_in_hole(hulls, 0.02, 0.005, 0.03, sides), 2e-4) << hulls.hulls.size();
+  EXPECT_EQ(std::count_if(hulls.hulls.begin(), hulls.hulls.end(),
+                          [](const Mesh& hull) {
+                            return HullPlanes(hull).outside({0, 0, 0.002}) < 0;
+                          }),
+            1);
 }
 
 // Hulls of real parts have slivers, whose normals mean nothing; their planes must not cut into the hull.

@@ -92,6 +92,11 @@ class Bits(unittest.TestCase):
                 off = np.abs(image.truth_depth[seen] - counts[seen] * image.depth_scale)
                 self.assertLess(off.max(), 0.5 * image.depth_scale + 1e-6)
                 self.assertTrue((image.truth_label == np.asarray(Image.open(base + "_truth_labels.png"))).all())
+                for channel in "depth truth_depth truth_normal labels truth_labels snr validity".split():
+                    np.testing.assert_array_equal(image.channel(channel), np.asarray(Image.open(base + "_%s.png" % channel)))
+                self.assertIsNone(image.channel("image"), "a range sensor takes no picture")
+                with self.assertRaisesRegex(bin_scenes.Error, "truth_depth"):
+                    image.channel("truth")
 
     def test_pictures_have_the_counts_of_the_files(self):
         from PIL import Image
@@ -115,6 +120,26 @@ class Bits(unittest.TestCase):
                 self.assertGreater(picture.max(), 100)
             self.assertGreater(images["grey16"].picture.max(), 255)
             self.assertIsNone(images["camera"].picture)
+
+    def test_grey_images_are_made_where_they_are_wanted(self):
+        from PIL import Image
+        light = {"name": "light", "preset": "structured_light_0.65m_590mm", "width": 64, "height": 48}
+        keys = nuts(3, sensors=[light, {"name": "camera", "width": 48, "height": 36}])
+        with tempfile.TemporaryDirectory() as folder, Generator() as g:
+            request = pathlib.Path(folder) / "request.yaml"
+            request.write_text(json.dumps(keys))
+            subprocess.run([TOOL, "generate", request, "--out", folder, "--formats", "gray"], check=True, capture_output=True)
+            without, images = next(g.generate(keys)).images, next(g.generate(keys, gray=True)).images
+            for name in ("light", "camera"):
+                written = np.asarray(Image.open(pathlib.Path(folder) / ("scene_000000/%s_gray.png" % name)))
+                np.testing.assert_array_equal(images[name].gray, written)
+                self.assertGreater(written.max(), 100)
+                np.testing.assert_array_equal(images[name].depth, without[name].depth)
+            self.assertIsNone(without["light"].gray)
+            heap = g.heap(keys)
+            heap.settle()
+            self.assertIsNone(heap.scene().images["light"].gray)
+            np.testing.assert_array_equal(heap.scene(gray=True).images["light"].gray, images["light"].gray)
 
     def test_grasps_are_those_of_the_file(self):
         keys = nuts(4, grippers=["robotiq_2f_85"])

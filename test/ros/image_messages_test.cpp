@@ -209,6 +209,20 @@ TEST(ImageMessages, APictureKeepsItsCounts) {
   for (std::size_t i = 0; i < 36; ++i) EXPECT_EQ(colour.data[i], image.picture.counts[i]);
 }
 
+TEST(ImageMessages, AChannelOfTheTableIsAMessageOfItsCounts) {
+  const RangeImage image = some_image();
+  std_msgs::Header header;
+  header.frame_id = "there";
+  const auto snr = channel_message(*find_image_channel("snr"), image, header);
+  ASSERT_TRUE(snr);
+  EXPECT_EQ(snr->header.frame_id, "there");
+  EXPECT_EQ(snr->encoding, "mono16");
+  std::uint16_t tenths = 0;
+  std::memcpy(&tenths, &snr->data[2 * 5], sizeof tenths);
+  EXPECT_EQ(tenths, 150);
+  EXPECT_FALSE(channel_message(*find_image_channel("image"), image, header)) << "a range sensor takes no picture";
+}
+
 TEST(ImageMessages, OneStampOneFrame) {
   const auto m = image_messages(some_image(), stamp);
   for (const std_msgs::Header* header :

@@ -1,6 +1,7 @@
 /// Grey images of range sensors: exposed for the parts, whatever their albedo, and without what makes depth err.
 #include "bin_scenes/sensor/gray_image.hpp"
 #include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -121,7 +123,7 @@ TEST(GrayImage, NoiseOfDepthDoesNotReachTheAmplitudeOfTimeOfFlight) {
 }
 
 /// Two plates that face the camera and meet below it, without light that met another surface.
-RangeImage two_plates_seen(const Device& device, double left, double right, const std::string& more) {
+RangeImage two_plates_seen(const Device& device, double left, double right, const std::string& more, bool gray = true) {
   test::Stage stage;
   const std::size_t line = stage.model(test::box_mesh({2.0, 4.0, 0.02}));
   stage.models.push_back(stage.models.back());
@@ -134,7 +136,7 @@ RangeImage two_plates_seen(const Device& device, double left, double right, cons
   stage.request.parts[line].surface.albedo = left;
   stage.request.parts[line + 1].surface.albedo = right;
   stage.scene.sensors = {resolved(sensor, stage.request.bin)};
-  return SensorRig().render(stage.scene, {stage.request, stage.models}).front();
+  return SensorRig().render(stage.scene, {stage.request, stage.models}, gray).front();
 }
 
 /// Levels are 255 * signal^(1 / 2.2): with twice the albedo, they are 2^(1 / 2.2) times as high, up to rounding.
@@ -209,6 +211,22 @@ TEST(GrayImage, ShadowsOfTheProjectorStayDark) {
     }
   }
   EXPECT_GT(count, 1000);
+}
+
+/// Without it, all else is the same, bit for bit, and who needs it is told.
+TEST(GrayImage, IsMadeOnDemand) {
+  for (const Device& device : {structured_light, decoded_light, time_of_flight, stereo, decoded_stereo}) {
+    const RangeImage with = two_plates_seen(device, 0.2, 0.5, ""),
+                     without = two_plates_seen(device, 0.2, 0.5, "", false);
+    const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
+      return a.size() == b.size() && std::memcmp(a.data(), b.data(), sizeof(float) * a.size()) == 0;  // NaN, too
+    };
+    EXPECT_TRUE(same(with.depth, without.depth) && same(with.intensity, without.intensity)) << device.settings;
+    EXPECT_TRUE(same(with.snr, without.snr)) << device.settings;
+    EXPECT_EQ(with.validity, without.validity);
+    EXPECT_FALSE(with.gray.empty());
+    EXPECT_THROW(gray_of(without), Error);
+  }
 }
 
 }  // namespace

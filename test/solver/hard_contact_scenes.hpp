@@ -98,6 +98,27 @@ inline Rebound strike_light_cube(Lab lab, double mass, double offset = 0.0) {
   return out;
 }
 
+/// Two cubes of `ratio` times the mass of a third one strike it from both sides at once: fastest that it is / their
+/// speed. Exactly, nothing moves afterwards.
+inline double asymmetry_of_impact(Lab lab, double edge, double ratio) {
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  const PartModelPtr cube = box(Vec3::Constant(edge));
+  const double mass = 1000.0 * edge * edge * edge, speed = 14.0 * std::sqrt(edge);
+  const auto light = lab.place(cube, Vec3::Zero(), Quat::Identity(), material(0.5, 0.0, mass));
+  for (const double side : {-1.0, 1.0}) {
+    const auto heavy =
+        lab.place(cube, Vec3(1.2 * side * edge, 0, 0), Quat::Identity(), material(0.5, 0.0, ratio * mass));
+    lab.start(heavy).velocity.linear = Vec3(-side * speed, 0, 0);
+  }
+  double most = 0.0;
+  while (lab.time() < 0.3) {
+    lab.simulate(lab.solver().step_size());
+    most = std::max(most, lab.state(light).velocity.linear.norm());
+  }
+  return most / speed;
+}
+
 struct Stood {
   double deepest = 0.0;  ///< overlap at any time / d
   double moved = 0.0;    ///< farthest that the light one went sideways / edge
@@ -145,13 +166,16 @@ inline Rebound pile_up_cubes(Lab lab, int count) {
   return out;
 }
 
-/// A house of cards of three levels, its leaning cards 0.42 rad off the upright.
+/// A house of cards.
 struct CardHouse {
-  static constexpr double length = 0.09, width = 0.06, thickness = 0.001, lean = 0.42, friction = 0.5;
-  double up = 0.5 * (length * std::cos(lean) + thickness * std::sin(lean));   // half a leaning card's height
-  double out = 0.5 * (length * std::sin(lean) + thickness * std::cos(lean));  // and half of its reach
-  double pitch = 4.0 * out, level_height = 2.0 * up + thickness;
-  double height() const { return 3.0 * level_height; }
+  static constexpr double length = 0.09, width = 0.06, thickness = 0.001, friction = 0.5;
+  int levels = 3;
+  double lean = 0.42;  ///< rad off the upright, of its leaning cards
+  double gap = 0.0;    ///< m: cards begin so far from each other, or twice as far
+  double up = 0.5 * (length * std::cos(lean) + thickness * std::sin(lean));         // half a leaning card's height
+  double out = 0.5 * (length * std::sin(lean) + thickness * std::cos(lean)) + gap;  // and half of its reach
+  double pitch = 4.0 * out, level_height = 2.0 * up + thickness + 2.0 * gap;
+  double height() const { return levels * level_height; }
 
   /// Its cards are the next bodies, each of `mass` (kg); returns where their centres are.
   std::vector<Vec3> place(Lab& lab, double mass = 1.0) const {
@@ -162,24 +186,24 @@ struct CardHouse {
       lab.place(part, at, Quat(Eigen::AngleAxisd(turn, Vec3::UnitY())), material(friction, 0.0, mass));
       starts.push_back(at);
     };
-    for (int level = 0; level < 3; ++level) {
-      const int pairs = 3 - level;
+    for (int level = 0; level < levels; ++level) {
+      const int pairs = levels - level;
       const double base = level * level_height, first = -0.5 * (pairs - 1) * pitch;
       for (int i = 0; i < pairs; ++i)
         for (const double side : {-1.0, 1.0})
-          put(card, Vec3(first + i * pitch + side * out, 0, base + up), -side * lean);
+          put(card, Vec3(first + i * pitch + side * out, 0, base + up + gap), -side * lean);
       for (int i = 0; i + 1 < pairs; ++i)
-        put(roof, Vec3(first + (i + 0.5) * pitch, 0, base + 2.0 * up + 0.5 * thickness), 0.0);
+        put(roof, Vec3(first + (i + 0.5) * pitch, 0, base + 2.0 * (up + gap) + 0.5 * thickness), 0.0);
     }
     return starts;
   }
 };
 
 /// Farthest that a card of a house that stands moves in six seconds / its length.
-inline double card_house_drift(Lab lab, Phase phase) {
-  const std::vector<Vec3> starts = CardHouse().place(lab);
+inline double card_house_drift(Lab lab, Phase phase, const CardHouse& house = {}, double seconds = 6.0) {
+  const std::vector<Vec3> starts = house.place(lab);
   lab.begin(phase);
-  lab.simulate(6.0);
+  lab.simulate(seconds);
   double most = 0.0;
   for (std::size_t b = 0; b < starts.size(); ++b)
     most = std::max(most, (lab.center(b) - starts[b]).norm() / CardHouse::length);

@@ -179,7 +179,7 @@ inline double blocks_on_cards(Lab lab, double aside) {
       (b < cards ? fastest : block) = std::max(b < cards ? fastest : block, speed);
     }
   }
-  return std::max(fastest, block) / (block / std::tan(CardHouse::lean));
+  return std::max(fastest, block) / (block / std::tan(house.lean));
 }
 
 }  // namespace bin_scenes::testing

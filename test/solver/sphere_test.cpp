@@ -113,7 +113,7 @@ TEST(SphereVariant, TakesAwayWhatItNames) {
   EXPECT_TRUE(every == all) << "bounds change no contact";
 
   for (bool sphere::Settings::*mechanism :
-       {&sphere::Settings::warm_start, &sphere::Settings::speculation, &sphere::Settings::half_way_poses,
+       {&sphere::Settings::warm_start, &sphere::Settings::speculation, &sphere::Settings::poses_at_contact_time,
         &sphere::Settings::relaxation, &sphere::Settings::gyroscopic}) {
     sphere::Variant without;
     without.settings.*mechanism = false;

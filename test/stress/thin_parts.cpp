@@ -5,8 +5,8 @@ namespace bin_scenes::stress {
 
 namespace {
 
-/// Overlap by half the thickness is half way through.
-double half_way(double thickness, const Mesh& mesh) {
+/// Relative overlap at which one part has passed half the thickness of the other.
+double half_the_thickness(double thickness, const Mesh& mesh) {
   return 0.5 * thickness / mesh.bounds().diagonal();
 }
 
@@ -14,7 +14,7 @@ Case heap(const std::string& model, const Mesh& mesh, double thickness, std::siz
   Case c = a_case(std::to_string(count) + " poured");
   c.request.bin.inner_size = bin;
   pour_in(c, model, mesh, count).density = 2700.0;
-  c.expect.penetration = half_way(thickness, mesh);
+  c.expect.penetration = half_the_thickness(thickness, mesh);
   return c;
 }
 
@@ -23,7 +23,7 @@ Case crossed(const std::string& model, const Mesh& mesh, double thickness, doubl
   PartLine& line = put(c, model, mesh, {{0, 0, 0.52 * thickness}, {0, 0, height}});
   line.density = 2700.0;
   line.poses[1].orientation = Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitZ()));
-  c.expect.penetration = half_way(thickness, mesh);
+  c.expect.penetration = half_the_thickness(thickness, mesh);
   c.expect.height = 0.5 * thickness;
   return c;
 }

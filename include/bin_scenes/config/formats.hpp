@@ -44,6 +44,7 @@ struct SceneFormat {
     sensors  ///< it shows nothing but what a sensor sees
   };
   Needs needs = Needs::scene;
+  bool gray = false;  ///< whether it shows the grey images of range sensors
 };
 /// In the order of lists; those of this library, then those that the program has added.
 const std::vector<SceneFormat>& scene_formats();

@@ -87,6 +87,7 @@ class Plan {
   std::size_t scenes() const { return heaps * (depletion.steps + 1); }
   /// Whether the data set contains files of this format.
   bool wants(const std::string& format) const;
+  bool wants_gray() const;  ///< whether an output shows the grey images of range sensors
 
   using VolumeOf = std::function<double(const PartLine&)>;  ///< returns the volume (m3) of one part of a line
   /// Returns the request of one attempt at one heap, drawn from (seed, heap, attempt) only. Request::first is the index

@@ -31,6 +31,7 @@ class Generator {
   /// What is made, and who is informed meanwhile.
   struct Options {
     bool render = true;   ///< false: no sensor image is made
+    bool gray = true;     ///< false: sensor images are made without their grey images (gray_image.hpp)
     bool grasps = false;  ///< whether grasps of the request's grippers are searched; what cameras see of them is
                           ///< determined only with `render`
     /// Called for each scene before it is handed over, in any thread and for several scenes at the same time, while

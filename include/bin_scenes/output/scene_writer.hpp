@@ -61,7 +61,7 @@ void write_pcd(const std::string& path, const RangeImage& image);
 /// truth_nz.
 void write_ply(const std::string& path, const RangeImage& image);
 
-/// Writes the images of a sensor as PNG files.
+/// Writes the images of a sensor as PNG files: all channels of image_channel.hpp, and pictures for viewing.
 ///
 /// 16 bit: <sensor>_depth.png and <sensor>_truth_depth.png contain counts of Sensor::depth_scale, where 0 means not
 /// valid and 65535 means that depth or more; <sensor>_labels.png contains id + 1, and 0 where nothing was measured;
@@ -84,7 +84,7 @@ void register_bag_writer(BagWriter writer);
 /// Returns the registered function; empty in a program without ROS.
 const BagWriter& bag_writer();
 
-/// As BagWriter, for an MCAP file.
+/// Writes a scene to an MCAP file, as BagWriter writes it to a bag.
 using McapWriter = std::function<void(const std::string& path, McapProfile, const Scene&, const LoadedRequest&,
                                       const std::vector<RangeImage>&)>;
 void register_mcap_writer(McapWriter writer);

@@ -11,11 +11,13 @@
 
 namespace bin_scenes {
 
-/// The key from which all random numbers of a sensor in a scene are derived.
+/// What is made of a view of a sensor: the key from which all its random numbers in a scene are derived, and whether a
+/// grey image is made as well.
 struct Draw {
   std::uint64_t seed = 0;
   std::size_t scene = 0;   ///< index
   std::size_t sensor = 0;  ///< index in the request
+  bool gray = true;        ///< whether RangeImage::gray is made; nothing else depends on it
 };
 
 /// Makes the measured and the true images. The caller fills in pixel counts and silhouettes afterwards.

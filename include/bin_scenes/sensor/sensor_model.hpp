@@ -70,6 +70,7 @@ struct SensorModel {
   bool fidelity = false;  ///< it supports both values of Fidelity
   bool indirect = false;  ///< it sees light that was reflected by other surfaces
   int bounces = 0;        ///< default of Sensor::bounces
+  bool gray = false;      ///< it makes RangeImage::gray if Draw::gray says so
   bool exact = false;     ///< it measures the truth: without noise, with true normals
   /// Converts the depths or points that `device` measured into those that it reports with the calibration of
   /// `believed`. Null: the range along the ray of a pixel stays the same.

@@ -45,6 +45,9 @@ struct WorldDef {
   /// m, height of the walls of a box above the floor; while parts enter, pour makes them higher than bin.inner_size.z
   double wall_height = 0.0;
   Vec3 gravity = Vec3(0, 0, -9.81);
+  /// Whether a symmetric impact among at most 48 bodies is shared out symmetrically, to 0.01 % of its speed. Heaps of
+  /// 10 parts then cost 1.1 to 1.5 of the time, those of 25 parts 1.6. Only the default solver reads it.
+  bool exact_impacts = true;
   std::int64_t scene = -1;  ///< index of the scene, which only messages of failed assertions use; -1: none
 };
 

@@ -1,7 +1,7 @@
 // Contacts in creases, which are sharp edges where a surface folds inwards, such as those of a pit or a slot. The true
 // distance there is the smaller one of the distances to the two walls. The grid of a field rounds it over two cells: a
 // part that fits into the crease was held off its walls by up to a third of a cell, and a peg did not enter its hole.
-// In addition, a point in a crease must be held by each wall, not by the nearer one alone.
+// With these functions, a point in a crease gets one contact for each of the two walls, at its true distance from each.
 //
 // The includer includes edge.h before.
 
@@ -26,7 +26,7 @@ LANE_LIST(Wall, wall_lists, SPHERE_MAX_WALLS)
 
 // Adds a wall unless it is in the list. Returns its number, or SPHERE_MAX_WALLS if the list is full.
 INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
-  const float like = 0.999f;  // cosine
+  const float like = 0.999f;  // cosine of the angle up to which two walls count as one
   uint i = 0u;
   while (i < walls.count &&
          (dot(WALL(walls, i).away, wall.away) < like || abs(WALL(walls, i).distance - wall.distance) > same))

@@ -269,8 +269,8 @@ INLINE bool ends_at(IN(Samples) samples, IN(Edge) edge, IN(vec3) corner, float s
   return min(dot(from_a, from_a), dot(from_b, from_b)) < same * same;
 }
 
-// For a point that is past the ends of sharp edges but beside none: whether it is outside a convex corner there, so
-// that the corner itself is the nearest point. If fewer than three edges end there, the surface continues; if a crease
+// Returns whether the nearest point of the surface is a convex corner, for a point that is past the ends of sharp edges
+// but beside none of them. If fewer than three edges end there, the surface continues; if a crease
 // ends there as well, the point may be in front of another face.
 INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) corner) {
   float away = length(point - corner), same = 0.01f * field.cell;

@@ -8,7 +8,7 @@ struct StepPlan {
                           // velocity that is left; without it, a gear on its teeth rolls forever
   int slip_sub_steps;     // the first sub-steps, which have no friction while the forces of a probe are found
   float sub_step;         // s
-  float half_way;         // s from the start of the step to the mean of the times at which its sub-steps begin.
+  float contact_time;     // s from the start of the step to the mean of the times at which its sub-steps begin.
                           // Contacts, lever arms and normals belong to that time, which makes the motion the symplectic
                           // Euler method over the sub-steps and conserves energy; with those of the start of the step,
                           // bodies that roll on an edge gain energy
@@ -24,7 +24,7 @@ INLINE StepPlan plan_step(float time_step, int sub_steps, int sweeps, bool rigid
   plan.relaxing_sweeps = rigid ? 1 : sweeps;
   plan.slip_sub_steps = 0;
   if (forgets && rigid && probe_slip > 0.0f) plan.slip_sub_steps = max(1, int(probe_slip / plan.sub_step + 0.5f));
-  plan.half_way = 0.5f * (time_step - plan.sub_step);
+  plan.contact_time = 0.5f * (time_step - plan.sub_step);
   return plan;
 }
 #endif

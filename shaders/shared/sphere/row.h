@@ -12,7 +12,8 @@ struct Ahead {
 
 // Moves the lever arms and the normal from the start of the step to the time at which contacts are evaluated. The point
 // moves with the sample's body, and the normal with the body of the field; of_a: the field belongs to a.
-INLINE void go_half_way(bool of_a, IN(Ahead) a, IN(Ahead) b, INOUT(vec3) ra, INOUT(vec3) rb, INOUT(vec3) normal) {
+INLINE void move_to_contact_time(bool of_a, IN(Ahead) a, IN(Ahead) b, INOUT(vec3) ra, INOUT(vec3) rb,
+                                 INOUT(vec3) normal) {
   if (max(dot(a.turned, a.turned), dot(b.turned, b.turned)) <= LEAST_TURN * LEAST_TURN) return;
   vec3 moved = of_a ? vec3(b.moved + cross(b.turned, rb)) : vec3(a.moved + cross(a.turned, ra));
   ra += moved - a.moved;

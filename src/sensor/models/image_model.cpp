@@ -2,11 +2,45 @@
 /// sensor_keys.hpp.
 #include "bin_scenes/core/error.hpp"
 #include "sensor/models/image.hpp"
+#include "sensor/models/image_optics.hpp"
 #include "sensor/models/of_sensor.hpp"
 
 namespace bin_scenes {
 
 namespace {
+
+void visit_table(KeyVisitor& v, Table::Settings& table) {
+  v.field({"albedo", "", "mean over the table; 0 = no table", at_least(0.0, 1.0)}, table.albedo);
+  v.field({"height", "m", "z in the bin frame; a box bin ends its wall thickness below 0", at_least(-100.0, 100.0)},
+          table.height);
+  v.field({"mottle", "", "largest deviation of the albedo / albedo, in patches that differ between scenes",
+           at_least(0.0, 1.0)},
+          table.mottle);
+  v.field({"patch", "m", "size of the largest patches", above(0.0, 100.0)}, table.patch);
+  v.field({"gloss", "", "share of light that is mirrored", at_least(0.0, 1.0)}, table.gloss);
+  v.field({"roughness", "", "of the mirrored share", at_least(0.0, 1.0)}, table.roughness);
+}
+
+void visit_optics(KeyVisitor& v, ImageOptics& s) {
+  v.field({"f_number", "", "of the lens: what is out of focus blurs; 0 = a pinhole, sharp everywhere",
+           at_least(0.0, 1000.0)},
+          s.f_number);
+  v.field({"focal_length", "m", "of the lens; with f_number it gives the aperture", above(0.0, 10.0)}, s.focal_length);
+  v.field({"focus", "m", "depth that is sharp; 0 = the median depth of the image", at_least(0.0, 1000.0)}, s.focus);
+  v.field({"bevel", "m", "radius of the fillets by which convex edges of parts are shaded; outlines and depth stay",
+           at_least(0.0, 0.1)},
+          s.bevel);
+  v.field({"reflected_roughness", "",
+           "least roughness of mirrors that are seen in mirrors; lower = sharper, with more grain", at_least(0.0, 1.0)},
+          s.soft);
+  v.field({"error", "",
+           "share of the full well: pixels whose standard error with a quarter of the samples is larger have all of "
+           "them; 0 = all pixels",
+           at_least(0.0, 1.0)},
+          s.error);
+  v.section({"table", "", "an endless table below the bin, which pictures alone see: it has no depth and no label"},
+            [&](KeyVisitor& keys) { visit_table(keys, s.table); });
+}
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   ImageSettings& s = settings.of<ImageSettings>();
@@ -16,6 +50,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
            "takes the grain of few samples out, with at least 4 of them; edges stay, faint scratches go, too"},
           s.denoise);
   v.field({"colour", "", "RGB instead of grey"}, s.colour);
+  visit_optics(v, settings.of<ImageOptics>());
   v.field({"bits", "", "of a count, 8 or 16, of which BOP has the upper 8", at_least(8.0, 16.0)}, s.bits);
 }
 
@@ -24,7 +59,7 @@ constexpr double most_paths = 4e9;
 
 void check_picture(const ImageLamp& lamp, const std::string& key) {
   if (lamp.type != ImageLamp::Type::dome)
-    throw input_error("is of a lamp that is no dome", key, "give type: dome, or leave it out");
+    throw input_error("applies only to lamps of type dome", key, "give type: dome, or leave it out");
   try {
     if (!(Sky(read_panorama(lamp.picture), Rgb::Ones(), 0.0).flux() > 0.0))
       throw input_error("is black", lamp.picture, "give a picture that shines");
@@ -42,6 +77,8 @@ void check(const Sensor& sensor, const std::string& key) {
                       "give 4, 8, 16, 32, ...");
   if (s.denoise && s.samples < 4)
     throw input_error("needs at least 4 samples", key + ".image.denoise", "give more samples, or denoise: false");
+  if (sensor.settings.of<ImageOptics>().error > 0.0 && s.samples < 16)
+    throw input_error("needs at least 16 samples", key + ".image.error", "give more samples, or error: 0");
   const double paths = static_cast<double>(sensor.width) * sensor.height * s.samples;
   if (sensor.model == "image" && paths > most_paths) {
     throw input_error(std::to_string(s.samples) + " for each of " + std::to_string(sensor.width) + " x " +

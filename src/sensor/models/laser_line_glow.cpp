@@ -56,8 +56,15 @@ void LaserLine::add_second_lines(const Carriage& at, const SheetGlow& glow, std:
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Hit& hit = hits[i];
     if (std::isnan(hit.distance)) continue;
-    lines.push_back({places[i].first, static_cast<double>(places[i].second), hit.distance, 0.0,
-                     at.eye + hit.distance * rays[i].direction, hit.normal, hit.label, true});
+    Line second{};
+    second.sample = places[i].first;
+    second.across = static_cast<double>(places[i].second);
+    second.depth = hit.distance;
+    second.point = at.eye + hit.distance * rays[i].direction;
+    second.normal = hit.normal;
+    second.label = hit.label;
+    second.visible = true;
+    lines.push_back(second);
   }
   std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.sample < b.sample; });
 }

@@ -21,7 +21,7 @@ class Multipath {
   /// Returns the indirect light of a pixel, in units of reflected / distance^2 of direct light, with the phase by which
   /// it arrives later.
   std::complex<double> at(std::size_t pixel) const;
-  /// Range (m) that a phase stands for.
+  /// Returns the distance (m) that belongs to a phase.
   double range(double phase) const { return 0.5 * phase / wave_; }
 
  private:

@@ -65,6 +65,7 @@ RangeImage image_of(View&& view, Measurement&& measured) {
 RangeImage image_with_gray(View&& view, Measurement&& measured, const Sensor& sensor, bool noise, const Draw& draw) {
   constexpr std::uint64_t piece = std::uint64_t{1} << 60;  // behind those of the models
   const int width = view.lens.width;
+  if (!draw.gray) return image_of(std::move(view), std::move(measured));
   std::vector<std::uint8_t> gray = exposed_for_parts(std::move(measured.light), view.label, width,
                                                      Imager(sensor.imager, noise), random_of(draw).of_piece(piece));
   RangeImage image = image_of(std::move(view), std::move(measured));

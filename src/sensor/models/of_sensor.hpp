@@ -30,7 +30,7 @@ Random rays_of(const Draw& draw);
 /// Takes over the truth of the view.
 void add_truth(RangeImage& image, View&& view);
 RangeImage image_of(View&& view, Measurement&& measured);
-/// Adds the grey image of a measurement with light.
+/// Adds the grey image of a measurement with light, if it is wanted.
 /// @param noise  whether the camera's noise is added
 RangeImage image_with_gray(View&& view, Measurement&& measured, const Sensor& sensor, bool noise, const Draw& draw);
 /// Measures with a model that supports both fidelities.

@@ -242,7 +242,7 @@ Measurement Stereo::decoded(const Random& random) const {
   for (int frame = 0; frame < frames; ++frame) {
     out = Measurement(view_.depth.size());
     disparities = matched(light, frame == 0 ? random : random.of_piece(first_frame + frame), out);
-    out.light = even_light();
+    if (setup_.gray) out.light = even_light();
     decimate(disparities, out);
     filter_one(disparities);
     if (frames > 1) average.add(disparities);
@@ -258,13 +258,13 @@ void Stereo::decimate(std::vector<float>& disparities, Measurement& out) const {
   const int width = view_.lens.width, columns = width / factor;
   disparities = decimated(factor, width, view_.lens.height, disparities);
   Measurement coarse(disparities.size());
-  coarse.light.resize(disparities.size());
+  coarse.light.resize(out.light.empty() ? 0 : disparities.size());
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     const std::size_t corner = i / columns * factor * width + i % columns * factor;
     for (int k = 0; k < factor * factor; ++k) {
       const std::size_t from = corner + static_cast<std::size_t>(k / factor) * width + k % factor;
       coarse.intensity[i] += out.intensity[from] / static_cast<float>(factor * factor);
-      coarse.light[i] += out.light[from] / static_cast<float>(factor * factor);
+      if (!out.light.empty()) coarse.light[i] += out.light[from] / static_cast<float>(factor * factor);
       coarse.snr[i] += out.snr[from] / static_cast<float>(factor * factor);
     }
     coarse.validity[i] = out.validity[corner + static_cast<std::size_t>(factor / 2) * (width + 1)];

@@ -27,6 +27,7 @@ class Stereo {
     double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
     IndirectField::Setup indirect{};
     StereoPipeline pipeline{};
+    bool gray = true;  ///< whether Measurement::light is filled
   };
   /// @param random  of the indirect light's samples
   /// @param view  of the first camera, whose images are rectified: no distortion. With noise, what is measured has

@@ -46,7 +46,7 @@ Stereo::Matchable Stereo::matchable(Measurement& out) const {
   Matchable found{std::vector<float>(view_.depth.size(), std::numeric_limits<float>::quiet_NaN()),
                   std::vector<float>(view_.depth.size(), 0.0f)};
   const std::vector<char> texture = s.dots > 0.0 ? std::vector<char>() : surface_texture();
-  out.light = even_light();
+  if (setup_.gray) out.light = even_light();
   in_parallel(static_cast<std::size_t>(view_.lens.height), [&](std::size_t row) {
     const std::vector<std::uint8_t> hidden = hidden_from_second(row);
     for (std::size_t x = 0; x < width; ++x) {

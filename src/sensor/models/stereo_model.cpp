@@ -191,7 +191,9 @@ RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, c
   const Lens lens = matched_lens(sensor);
   std::optional<View> fine;
   if (lens.width != view.lens.width) fine = render(scenery, lens, view.pose, sensor.near, sensor.far);
-  const Stereo model(scenery, fine ? *fine : view, surfaces, stereo_setup(sensor), rays_of(draw));
+  Stereo::Setup setup = stereo_setup(sensor);
+  setup.gray = draw.gray;
+  const Stereo model(scenery, fine ? *fine : view, surfaces, setup, rays_of(draw));
   return image_by(model, sensor, std::move(view), draw);
 }
 
@@ -214,7 +216,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 
 constexpr SensorModel model() {
   SensorModel m{"stereo", "the second camera, dots and matching", visit_keys, check, check_places, measured, sigma};
-  m.imager = m.projector = m.fidelity = m.indirect = true;
+  m.imager = m.projector = m.fidelity = m.indirect = m.gray = true;
   m.report = report;
   return m;
 }

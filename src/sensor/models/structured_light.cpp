@@ -234,6 +234,7 @@ double StructuredLight::white_light(std::size_t index, const float* indirect) co
 
 /// Replaces direct and ambient light of the pixel's centre by those of the whole pixel.
 void StructuredLight::blend_white_light(const Blend& blend, std::size_t index, Measurement& out) const {
+  if (!setup_.gray) return;
   out.light[index] += static_cast<float>(setup_.imager.ambient * blend.diffuse - ambient(index) +
                                          gain_ * (blend.white - whites_[index]));
 }
@@ -360,7 +361,7 @@ void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Ran
     const bool near_edge = strip.near_edge(i);
     float indirect[most_channels] = {};
     const bool twice = indirect_ && indirect_->at(i, channels(), indirect);
-    out.light[i] = static_cast<float>(white_light(i, indirect));
+    if (setup_.gray) out.light[i] = static_cast<float>(white_light(i, indirect));
     if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
     const Pixel p = pixel(i - row * width, row);
     if (twice && code != Validity::valid && !near_edge && too_dark(indirect)) {
@@ -390,7 +391,7 @@ void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Ran
 
 Measurement StructuredLight::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
-  out.light.resize(view_.depth.size());
+  if (setup_.gray) out.light.resize(view_.depth.size());
   in_strips([&](const Strip& strip, int first, int last) {
     for (int row = first; row < last; ++row) measure_row(strip, static_cast<std::size_t>(row), random, out);
   });

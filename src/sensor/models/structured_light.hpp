@@ -46,6 +46,7 @@ class StructuredLight {
     IndirectField::Setup indirect{};
     bool only_analytic = false;  ///< the indirect light of images may be less fine: few pixels need them
     ReflectionFilter reflection{};
+    bool gray = true;  ///< whether Measurement::light is filled
   };
   /// @param random  of the indirect light's samples
   StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,

@@ -50,7 +50,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
   indirect.resize(static_cast<std::size_t>(channels()) + images.size());
   const bool twice = indirect_ && indirect_->at(i, static_cast<int>(indirect.size()), indirect.data());
   if (!twice) indirect[white] = 0.0f;
-  out.light[i] = static_cast<float>(white_light(i, indirect.data()));
+  if (setup_.gray) out.light[i] = static_cast<float>(white_light(i, indirect.data()));
   if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) return;
   std::fill(images.begin(), images.end(), 0.0f);
   double background = ambient(i);
@@ -102,7 +102,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
 
 Measurement StructuredLight::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
-  out.light.resize(view_.depth.size());
+  if (setup_.gray) out.light.resize(view_.depth.size());
   in_strips([&](const Strip& strip, int first, int last) {
     std::vector<float> images(static_cast<std::size_t>(this->images()));
     for (int row = first; row < last; ++row) {

@@ -101,7 +101,9 @@ void check_places(const Sensor& sensor, const std::string& where) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor), rays_of(draw));
+  StructuredLight::Setup setup = structured_light_setup(sensor);
+  setup.gray = draw.gray;
+  const StructuredLight model(scenery, view, surfaces, setup, rays_of(draw));
   return image_by(model, sensor, std::move(view), draw);
 }
 
@@ -126,7 +128,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 constexpr SensorModel model() {
   SensorModel m{
       "structured_light", "fringes: phase shift and Gray code", visit_keys, check, check_places, measured, sigma};
-  m.imager = m.projector = m.fidelity = m.indirect = true;
+  m.imager = m.projector = m.fidelity = m.indirect = m.gray = true;
   m.bounces = 1;
   m.report = report;
   return m;

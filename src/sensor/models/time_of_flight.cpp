@@ -144,7 +144,7 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
   std::optional<Multipath> multipath;
   if (setup.indirect.bounces > 0) multipath.emplace(scenery, view, surfaces, setup.indirect, s.modulation, rays);
   Measurement out(view.depth.size());
-  out.light.resize(view.depth.size());
+  if (setup.gray) out.light.resize(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t y) {
     Random draw = random.of_piece(y);
@@ -161,15 +161,17 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
       draw.normals(jitter[x].x(), jitter[x].y());
       jitter[x] *= lateral_sigma(s, incidence[x]);
     }
-    std::vector<Returned> light = row.returned(jitter), still = light;
-    if (setup.noise) still = row.returned(std::vector<Eigen::Vector2d>(width, Eigen::Vector2d::Zero()));
+    std::vector<Returned> light = row.returned(jitter), still;
+    if (setup.gray && !setup.noise) still = light;
+    if (setup.gray && setup.noise) still = row.returned(std::vector<Eigen::Vector2d>(width, Eigen::Vector2d::Zero()));
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
       double axial = 0.0, unused = 0.0;
       if (setup.noise) draw.normals(axial, unused);
       if (std::isnan(view.depth[i])) continue;
-      if (multipath) add(*multipath, i, row.center(x), light[x]), add(*multipath, i, row.center(x), still[x]);
-      out.light[i] = static_cast<float>(still[x].signal);
+      if (multipath) add(*multipath, i, row.center(x), light[x]);
+      if (multipath && setup.gray) add(*multipath, i, row.center(x), still[x]);
+      if (setup.gray) out.light[i] = static_cast<float>(still[x].signal);
       out.intensity[i] = static_cast<float>(std::min(light[x].signal, 1.0));
       if (light[x].signal < s.min_signal) {
         out.validity[i] = Validity::dark;

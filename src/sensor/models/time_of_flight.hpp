@@ -16,6 +16,7 @@ struct TimeOfFlightSetup {
   bool noise = true;
   double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
   IndirectField::Setup indirect{};
+  bool gray = true;  ///< whether Measurement::light is filled
 };
 
 /// @param random  of the noise

@@ -9,10 +9,18 @@ namespace {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   TimeOfFlightSettings& s = settings.of<TimeOfFlightSettings>();
-  v.field({"axial", "m", "standard deviation at axial_distance, facing", at_least(0.0, 10.0)}, s.axial);
-  v.field({"axial_growth", "1/m", "times (z - axial_distance) squared", at_least(0.0, 10.0)}, s.axial_growth);
-  v.field({"axial_distance", "m", "distance at which noise begins to grow", at_least(0.0, 1000.0)}, s.axial_distance);
-  v.field({"axial_angle", "m^1.5", "times t^2 / (pi/2 - t)^2 / sqrt(z), t the angle of incidence", at_least(0.0, 10.0)},
+  v.field({"axial", "m",
+           "smallest standard deviation of depth, reached at axial_distance on a surface that faces the camera",
+           at_least(0.0, 10.0)},
+          s.axial);
+  v.field(
+      {"axial_growth", "1/m",
+       "multiplied by (z - axial_distance)^2 and added to the standard deviation; z is the depth", at_least(0.0, 10.0)},
+      s.axial_growth);
+  v.field({"axial_distance", "m", "depth at which the noise is smallest", at_least(0.0, 1000.0)}, s.axial_distance);
+  v.field({"axial_angle", "m^-0.5",
+           "multiplied by z^1.5 t^2 / (pi/2 - t)^2 and added to the standard deviation; t is the angle of incidence",
+           at_least(0.0, 10.0)},
           s.axial_angle);
   v.field({"lateral", "pixel", "jitter of the ray; moves edges, never a plane", at_least(0.0, 100.0)}, s.lateral);
   v.field({"lateral_angle", "pixel", "times t / (pi/2 - t)", at_least(0.0, 100.0)}, s.lateral_angle);
@@ -33,8 +41,12 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  const TimeOfFlightSetup setup{sensor.settings.of<TimeOfFlightSettings>(), sensor.noise, sensor.near, sensor.far,
-                                indirect_of(sensor)};
+  const TimeOfFlightSetup setup{sensor.settings.of<TimeOfFlightSettings>(),
+                                sensor.noise,
+                                sensor.near,
+                                sensor.far,
+                                indirect_of(sensor),
+                                draw.gray};
   Measurement measured = time_of_flight(scenery, view, surfaces, setup, random_of(draw), rays_of(draw));
   const bool noise = false;  // shot noise that fits noise of millimetres in depth is below a grey level
   return image_with_gray(std::move(view), std::move(measured), sensor, noise, draw);
@@ -48,7 +60,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 
 constexpr SensorModel model() {
   SensorModel m{"time_of_flight", "noise along the ray and across it", visit_keys, nullptr, nullptr, measured, sigma};
-  m.indirect = true;
+  m.indirect = m.gray = true;
   m.bounces = 1;
   return m;
 }

@@ -87,7 +87,8 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   void begin();
   void forget_impacts(btScalar speed);
   void warm_start();
-  /// Over all contacts, or those of bodies that the last sweep left unconverged; whether it leaves any.
+  /// Sweeps over all contacts, or over those of bodies that the last sweep left unconverged. Returns whether any
+  /// remain.
   bool sweep(btScalar h, Sweep kind, bool all);
   void resist_turn(int first, int last);
   btScalar solve_normal(int contact, btScalar h, const Soft* soft);

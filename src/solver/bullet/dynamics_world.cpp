@@ -78,15 +78,15 @@ void DynamicsWorld::predictUnconstraintMotion(btScalar dt) {
 
 void DynamicsWorld::performDiscreteCollisionDetection() {
   const btScalar dt = getDispatchInfo().m_timeStep;
-  const btScalar half_way = btScalar(0.5) * (dt - dt / btScalar(getSolverInfo().m_numIterations));
+  const btScalar contact_time = btScalar(0.5) * (dt - dt / btScalar(getSolverInfo().m_numIterations));
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& body = *m_nonStaticRigidBodies[i];
     Motion& motion = *static_cast<Motion*>(body.getUserPointer());
     motion.start = body.getWorldTransform();
     motion.ahead_moved = motion.ahead_turned = btVector3(0, 0, 0);
     if (body.isStaticOrKinematicObject() || !body.isActive() || is_ball(body)) continue;
-    motion.ahead_moved = body.getLinearVelocity() * half_way;
-    motion.ahead_turned = body.getAngularVelocity() * half_way;
+    motion.ahead_moved = body.getLinearVelocity() * contact_time;
+    motion.ahead_turned = body.getAngularVelocity() * contact_time;
     body.setWorldTransform(moved(motion.start, motion.ahead_moved, rotation(motion.ahead_turned)));
     body.updateInertiaTensor();
   }

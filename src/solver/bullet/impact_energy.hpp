@@ -18,7 +18,7 @@ class ImpactEnergy {
   ImpactEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs);
 
   /// After it: groups of bodies that gained over the start of the step keep as much of the rebound as energy allows. A
-  /// body alone rebounds as its contacts say.
+  /// body alone rebounds with the restitution of its contacts.
   void limit();
 
  private:

@@ -1,4 +1,5 @@
-/// The faces of a convex hull in the form in which Bullet clips them against each other.
+/// The faces of a convex hull in the form in which Bullet clips them against each other. Triangles in one plane become
+/// one face. Bullet's own function splits some planes, and contacts then miss corners.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

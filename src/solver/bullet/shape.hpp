@@ -1,4 +1,5 @@
-/// Makes Bullet's collision shapes of parts and bins in the scaled world (see bullet_solver.hpp).
+/// Makes Bullet's collision shapes of parts and bins: compounds of convex hulls, or planes and boxes. Lengths are those
+/// of the scaled world (see bullet_solver.hpp), in which a part has a size of about one.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

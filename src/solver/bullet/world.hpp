@@ -91,7 +91,7 @@ class World {
   MeshShape bin_mesh_;
   std::vector<std::unique_ptr<btCollisionShape>> wall_shapes_;
   std::vector<std::unique_ptr<btRigidBody>> walls_;
-  bool by_touch_ = false;  ///< bodies sleep and wake as Phase::Sleep::by_touch says
+  bool by_touch_ = false;  ///< bodies sleep and wake by the rule Phase::Sleep::by_touch
   Counters counters_;
 };
 

@@ -45,6 +45,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
                  const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base) {
   World w;
   w.scene = def.scene;
+  w.exact_impacts = def.exact_impacts;
   w.settings = base;
   w.settings.sub_steps = settings.sub_steps;
   w.settings.cut_steps = base.cut_steps && settings.cut_steps;

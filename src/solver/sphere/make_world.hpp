@@ -11,7 +11,7 @@ namespace bin_scenes::sphere {
 
 /// The solver with a mechanism taken away or changed, which no request can ask for: what benchmarks compare with.
 struct Variant {
-  Settings settings;                   ///< but for what the request says
+  Settings settings;                   ///< except those that the request sets
   std::function<void(Shape&)> change;  ///< is done to each part's shape
 };
 
@@ -23,7 +23,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
 /// What the user should know of a world: a time step that is too long for its parts is cut; the flags of its shapes.
 std::vector<Flag> flags_of(const World& world);
 
-/// Puts a body where the state says, awake.
+/// Sets pose and velocity of a body to those of the state, and wakes the body.
 void place(World& world, std::size_t body, const BodyState& state);
 
 void set_jaws(World& world, const Jaws& jaws);

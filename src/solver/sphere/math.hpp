@@ -1,5 +1,5 @@
 /// Vectors, rotations and poses in single precision, with which the CPU passes of the default solver compute exactly
-/// what their GPU form computes.
+/// what their GPU form computes. The rest of the program uses the double-precision types of core/types.hpp.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

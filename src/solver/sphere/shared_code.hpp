@@ -1,5 +1,6 @@
 /// Provides GLSL's names for Eigen's types and functions, so that the code of shaders/shared/sphere can be compiled as
-/// C++ as well.
+/// C++ as well. Both forms of the solver thereby execute the same text. It is included inside a namespace by the passes
+/// that use shared code.
 #pragma once
 
 #include "shared/language.h"
@@ -29,11 +30,11 @@ inline float length(const vec3& v) {
 inline vec3 cross(const vec3& a, const vec3& b) {
   return a.cross(b);
 }
-/// Of 0: 0.
+/// Returns the unit vector along v; 0 if v is 0.
 inline vec3 unit(const vec3& v) {
   return v.normalized();
 }
-/// By the transpose: back out of the frame that m carries into.
+/// Rotates a vector by the transpose of m: from the frame into which m rotates back to the original one.
 inline vec3 turned_back(const mat3& m, const vec3& v) {
   return m.transpose() * v;
 }

@@ -48,8 +48,12 @@ struct Settings {
   /// Larger worlds leave an impact to the next sub-steps: in a heap that is poured there is always one, soon shared
   /// among many, and the sweeps would cost a tenth of its time.
   std::size_t impact_bodies = 48;
-  int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
-  int cold_steps = 50;  ///< number of such steps; with 0, a part under one of a thousand times its mass never rests
+  /// m/s: the same as tolerance in a step with an impact, of worlds that solve impacts exactly; more = a symmetric
+  /// impact leaves a hundredth of its speed sideways.
+  float exact_tolerance = 1e-4f;
+  int exact_sweeps = 60;  ///< most sweeps for that, times heaviest / lightest part
+  int cold_sweeps = 4;    ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
+  int cold_steps = 50;    ///< number of such steps; with 0, a part under one of a thousand times its mass never rests
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
   // World::effort multiplies the work on contacts. It is the largest of four bounds, each 1 in an ordinary bin.
   float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; work grows linearly beyond;
@@ -84,16 +88,16 @@ struct Settings {
   float touch_move = 5e-4f;  ///< d: the same where bodies sleep by touch, and distance at which they wake others; less
                              ///< = a pick wakes more of the heap, more = what creeps is frozen
 
-  // Switches of what no number turns off, on in every request.
-  bool warm_start = true;        ///< a step begins with the forces of the last one
-  bool speculation = true;       ///< contacts that may close in a step are found before they do
-  bool soonest_first = true;     ///< of a pair's contacts those about to close go before those farther off
-  bool way_back = true;          ///< samples that are deep inside go back to where they came in
-  bool half_way_poses = true;    ///< contacts are found where bodies are halfway through the step
-  bool relaxation = true;        ///< sweeps that take back the velocity which pushing overlap out has left
-  bool friction_reserve = true;  ///< a stage of settling may let a share of friction hold
-  bool gyroscopic = true;        ///< torque of spinning parts whose inertia is not the same about all axes
-  bool oriented_boxes = true;    ///< pairs whose oriented boxes are apart are no pairs
+  // Switches for tests and benchmarks; a request cannot set them, and all are on.
+  bool warm_start = true;             ///< a step begins with the forces of the last one
+  bool speculation = true;            ///< contacts that may close in a step are found before they do
+  bool soonest_first = true;          ///< of a pair's contacts those about to close go before those farther off
+  bool way_back = true;               ///< samples that are deep inside go back to where they came in
+  bool poses_at_contact_time = true;  ///< contacts are found at the poses at StepPlan::contact_time
+  bool relaxation = true;             ///< sweeps that take back the velocity which pushing overlap out has left
+  bool friction_reserve = true;       ///< a stage of settling may let a share of friction hold
+  bool gyroscopic = true;             ///< torque of spinning parts whose inertia is not the same about all axes
+  bool oriented_boxes = true;         ///< pairs whose oriented boxes are apart are no pairs
 
   const Softness& softness(Stiffness of) const {
     return of == Stiffness::soft ? soft : of == Stiffness::stiff ? stiff : rigid;
@@ -222,6 +226,7 @@ struct World {
   Stiffness stiffness = Stiffness::soft;  ///< of contacts
   Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake
   float friction_share = 1;               ///< share of friction that acts
+  bool exact_impacts = true;              ///< WorldDef::exact_impacts
   bool forgets = false;                   ///< the next step starts without remembered forces
   std::optional<JawPair> jaws;            ///< Solver::set_jaws()
   std::vector<Pull> pulls;                ///< Solver::set_force()
@@ -248,21 +253,28 @@ struct World {
     return stiffness == Stiffness::soft ? effort * softness().refinement : softness().refinement;
   }
   int sweep_effort() const { return stiffness == Stiffness::soft ? mass_effort : std::max(effort, mass_effort); }
+  /// m/s: a contact whose speed a sweep changes by more is not solved yet.
+  /// @param impact  something closes fast in this step
+  float tolerance(bool impact) const {
+    const float usual = settings.tolerance * smallest_size;
+    return impact && exact_impacts ? std::min(usual, settings.exact_tolerance) : usual;
+  }
   /// Most sweeps of a sub-step while an impact is not shared; 0: it is left to the next ones.
   /// @param impact  something closes fast in this step
   int impact_sweeps(bool impact) const {
     if (bodies.size() > settings.impact_bodies || settings.sharing_sweeps == 0) return 0;
     if (!impact) return settings.sharing_sweeps;
-    const float wanted = mass_ratio * static_cast<float>(settings.impact_sweeps);
+    const int sweeps = exact_impacts ? settings.exact_sweeps : settings.impact_sweeps;
+    const float wanted = mass_ratio * static_cast<float>(sweeps);
     return static_cast<int>(std::min(wanted, static_cast<float>(settings.most_impact_sweeps)));
   }
-  /// Of the next step.
+  /// Returns the plan of the next step.
   StepPlan plan() const {
     StepPlan plan = plan_step(settings.time_step, settings.sub_steps * refinement(),
                               sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps),
                               stiffness == Stiffness::rigid, forgets, settings.probe_slip);
     if (!settings.relaxation) plan.relaxing_sweeps = 0;
-    if (!settings.half_way_poses) plan.half_way = 0;
+    if (!settings.poses_at_contact_time) plan.contact_time = 0;
     return plan;
   }
   bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }

@@ -22,7 +22,7 @@ class Arena {
     size_ = std::max(size_, at + count);
     return at;
   }
-  /// Makes a region larger where it lies; false if another one lies behind it too near.
+  /// Enlarges a region in place; returns false if the next region leaves too little room.
   bool extend(std::size_t first, std::size_t count) {
     const auto region = taken_.find(first);
     if (region == taken_.end()) return false;

@@ -188,6 +188,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   gpu::SphereWorld& w = host_worlds_[slot];
   w.gravity = vec4(world.gravity, world.smallest_size);
   w.ground = {world.ground_friction, world.ground_restitution, world.wall_top, world.thinnest};
+  w.tolerance = {world.tolerance(false), world.tolerance(true), 0, 0};
   upload_world(slot);
   std::vector<gpu::SpherePlane> planes;
   for (const sphere::Plane& plane : world.planes) planes.push_back(to_gpu(plane));

@@ -49,7 +49,7 @@ namespace bin_scenes::sphere_gl {
 class Batch {
  public:
   using Slot = std::size_t;  ///< of a world
-  /// What goes up with the state of a body, for the watch.
+  /// Data of the watch that are uploaded with the state of a body.
   struct Mark {
     bool enters = false;  ///< its energy begins with this state
     gpu::uint moved = 0;  ///< WatchedBody::moved
@@ -89,7 +89,7 @@ class Batch {
 
   /// Everything of one world, after waiting for the passes so far.
   void download(Slot slot, sphere::World& world) const;
-  /// For tests: where it stands, its worst contact, and its manifolds as they lie on the device.
+  /// For tests: the progress of a world, its worst contact, and its manifolds as they are on the device.
   gpu::SphereProgress progress(Slot slot) const { return progress_.download(slot, 1)[0]; }
   gpu::SphereWorst worst(Slot slot) const { return worst_.download(slot, 1)[0]; }
   ManifoldImage manifolds(Slot slot) const;

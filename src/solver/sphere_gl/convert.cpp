@@ -60,7 +60,6 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.coarse_recycle = s.coarse_recycle;
   out.rest_move = s.rest_move;
   out.touch_move = s.touch_move;
-  out.tolerance = s.tolerance;
   out.restitution_speed = s.restitution_speed;
   out.rest_window = s.rest_window;
   return out;

@@ -1,4 +1,5 @@
 /// Converts between the structs of the CPU passes (solver/sphere/world.hpp) and those of the shaders (shared/sphere.h).
+/// The functions only copy values and pack flags; nothing is computed.
 #pragma once
 
 #include "shared/sphere.h"

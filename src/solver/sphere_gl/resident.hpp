@@ -1,4 +1,5 @@
-/// The host's record of a world on the device, and how the host reads the results of the device.
+/// The host's record of a world on the device: where its regions are in the buffers, how far it has been simulated, and
+/// what was last read back. It also reads the states and results of the device. The passes themselves are in batch.hpp.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"
@@ -11,7 +12,7 @@
 
 namespace bin_scenes::sphere_gl {
 
-/// Where a world stood when its steps were last read, but for the bodies changed since.
+/// The state of a world when its steps were last read, except for bodies that were changed since.
 struct Resident {
   sphere::World world;
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
@@ -24,8 +25,8 @@ struct Resident {
   bool counted = false;          ///< its counters were taken: the device is to begin them anew
   gpu::SphereWorst worst{};      ///< since it was taken
   bool worst_taken = false;      ///< the device is to forget it
-  bool known = true;             ///< all of the above is of now
-  int unread = 0;                ///< stretches of steps since it was
+  bool known = true;             ///< all of the above is up to date
+  int unread = 0;                ///< series of steps that were issued since it was
 
   bool watched = false;  ///< states are read only when they are asked for
   bool wants_states = false;
@@ -49,7 +50,7 @@ struct Flight {
 std::vector<std::uint32_t> touched(sphere::World world, std::size_t body);
 /// Bodies that changed since the last steps; and the device forgets a worst contact that was taken.
 void upload_changes(Batch& batch, Resident& r);
-/// Room that a world asked for by its progress. What it needs of the common lists is added to `samples` and
+/// Provides the room that a world needs by its progress. What it needs of the common lists is added to `samples` and
 /// `candidates`.
 void make_room_for(Batch& batch, Resident& r, gpu::uint& samples, gpu::uint& candidates);
 /// Moves the counters of a world to a profile.

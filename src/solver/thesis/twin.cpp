@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace bin_scenes::thesis::twin {
 
@@ -140,11 +141,12 @@ namespace {
 
 /// A sphere or a node of a sheet that a sphere overlaps.
 struct Found {
-  float depth;
-  gpu::uint other, key;  ///< of the sphere or node, and of its body or sheet
-  V center, normal;
-  bool face, deep;
-  float radius, friction, restitution;
+  float depth = 0.0f;            ///< m, of the overlap
+  gpu::uint other = 0, key = 0;  ///< of the sphere or node, and of its body or sheet
+  V center = V::Zero(), normal = V::Zero();
+  bool face = false;  ///< `normal` is that of a face
+  bool deep = false;  ///< a sheet pushes along its normal
+  float radius = 0.0f, friction = 0.0f, restitution = 0.0f;
 };
 
 /// Normal of a sphere's face, and whether it has one.
@@ -162,9 +164,16 @@ void find_spheres(const Memory& m, gpu::uint sphere, std::vector<Found>& found) 
     if (other == body || m.bodies[other].range.z != m.bodies[body].range.z) continue;
     const float depth = m.centers[sphere].w + m.centers[o].w - (p - v(m.centers[o])).norm();
     if (depth <= 0.0f) continue;
-    const auto [normal, face] = face_of(m, o);
-    found.push_back({depth, o, other, v(m.centers[o]), normal, face, false, m.centers[o].w, m.bodies[other].surface.x,
-                     m.bodies[other].surface.y});
+    Found sphere_found;
+    sphere_found.depth = depth;
+    sphere_found.other = o;
+    sphere_found.key = other;
+    sphere_found.center = v(m.centers[o]);
+    std::tie(sphere_found.normal, sphere_found.face) = face_of(m, o);
+    sphere_found.radius = m.centers[o].w;
+    sphere_found.friction = m.bodies[other].surface.x;
+    sphere_found.restitution = m.bodies[other].surface.y;
+    found.push_back(sphere_found);
   }
 }
 
@@ -185,9 +194,19 @@ void find_nodes(const gpu::ThesisSheet& sheet, gpu::uint k, const gpu::vec4& sph
       const float depth = r + radius - (deep ? height : (p - center).norm());
       const gpu::uint code =
           THESIS_NODE | k << 16 | static_cast<gpu::uint>(du + 128) << 8 | static_cast<gpu::uint>(dv + 128);
-      if (depth > 0.0f)
-        found.push_back(
-            {depth, code, THESIS_NODE | k, center, n, true, deep, radius, sheet.surface.x, sheet.surface.y});
+      if (depth <= 0.0f) continue;
+      Found node;
+      node.depth = depth;
+      node.other = code;
+      node.key = THESIS_NODE | k;
+      node.center = center;
+      node.normal = n;
+      node.face = true;
+      node.deep = deep;
+      node.radius = radius;
+      node.friction = sheet.surface.x;
+      node.restitution = sheet.surface.y;
+      found.push_back(node);
     }
 }
 

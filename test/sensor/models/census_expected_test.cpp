@@ -80,6 +80,37 @@ TEST(ExpectedCensus, TheGapGrowsWithTheSecondPeak) {
   EXPECT_NEAR(gap(0.22), 0.82 * window, 0.7);
 }
 
+TEST(ExpectedCensus, FalseMatchesAreBetweenTheSurfacesAndFarFromMatches) {
+  const std::vector<float> truth = image([](int x, int) { return x < edge ? 40.0 : 48.0; });
+  int places = 0, wrong = 0;
+  double sum = 0.0;
+  for (int seed = 0; seed < 20; ++seed) {
+    std::vector<float> found = truth;
+    matcher(0.22, 0.9).match(width, height, Random(seed, 0, Stream::noise), found);
+    const auto at = [&](int x, int y) { return found[static_cast<std::size_t>(y) * width + x]; };
+    const auto is_match = [&](int x, int y) { return at(x, y) == 40.0f || at(x, y) == 48.0f; };
+    for (int y = 1; y < height - 1; ++y) {
+      for (int x = edge - window; x < edge + window; ++x) {
+        bool near = false;
+        for (int v = -1; v <= 1; ++v)
+          for (int u = -1; u <= 1; ++u) near = near || is_match(x + u, y + v);
+        const bool is_wrong = !std::isnan(at(x, y)) && !is_match(x, y);
+        ASSERT_FALSE(near && is_wrong);
+        places += !near;
+        wrong += is_wrong;
+        if (!is_wrong) continue;
+        ASSERT_GT(at(x, y), 40.0f);
+        ASSERT_LT(at(x, y), 48.0f);
+        sum += at(x, y);
+      }
+    }
+  }
+  // Binomial, and the mean of a uniform distribution: each within four standard deviations, odds of 1 in 16,000.
+  ASSERT_GT(places, 5000);
+  EXPECT_NEAR(wrong, 0.06 * places, 4.0 * std::sqrt(0.06 * 0.94 * places));
+  EXPECT_NEAR(sum / wrong, 44.0, 4.0 * 8.0 / std::sqrt(12.0 * wrong));
+}
+
 TEST(ExpectedCensus, FewDotsLeaveHoles) {
   const std::vector<float> truth = image([](int, int) { return 40.0; });
   const auto missing = [&](double dots) {

@@ -77,14 +77,21 @@ TEST(LinePeak, OfADarkSurfaceIsMissing) {
 }
 
 TEST(TimeOfFlightNoise, IsThatOfThePaper) {
-  // Nguyen et al. 2012, equation 2 at 10 degrees or less, and their figure 5's growth towards grazing.
+  // Fankhauser et al. 2015, axial noise indoors, in mm. Rounding of the vertex of its parabola: below 0.001 mm.
   TimeOfFlightSettings s;
-  EXPECT_NEAR(axial_sigma(s, 1.0, 0.0, s.albedo), 0.0012 + 0.0019 * 0.36, 1e-12);
-  EXPECT_NEAR(axial_sigma(s, 2.0, 0.0, s.albedo), 0.0012 + 0.0019 * 2.56, 1e-12);
-  EXPECT_NEAR(axial_sigma(s, 1.0, M_PI / 3, s.albedo) - axial_sigma(s, 1.0, 0.0, s.albedo), 0.0001 * 4.0, 1e-12);
-  EXPECT_NEAR(lateral_sigma(s, M_PI / 4), 0.8 + 0.035, 1e-12);
+  for (const double z : {0.7, 1.0, 2.0, 3.0, 4.0}) {
+    for (const double degrees : {0.0, 30.0, 60.0, 75.0}) {
+      const double t = degrees * M_PI / 180.0, tilt = t / (0.5 * M_PI - t);
+      const double paper = 1.5 - 0.5 * z + 0.3 * z * z + 0.1 * std::pow(z, 1.5) * tilt * tilt;
+      EXPECT_NEAR(1e3 * axial_sigma(s, z, t, s.albedo), paper, 1e-3) << z << " m, " << degrees << " degrees";
+    }
+  }
+  // Lateral noise of 1.6 mm, here in pixels of its camera (f = 365 pixels) at 1 m, whatever the incidence.
+  EXPECT_NEAR(lateral_sigma(s, M_PI / 4), 1.6e-3 * 365.0, 5e-3);
+  s.lateral_angle = 0.035;
+  EXPECT_NEAR(lateral_sigma(s, M_PI / 4), s.lateral + 0.035, 1e-12);
   const double steep = 80.0 * M_PI / 180.0;
-  EXPECT_EQ(axial_sigma(s, 1.0, 0.5 * M_PI, s.albedo), axial_sigma(s, 1.0, steep, s.albedo)) << "measured up to 80";
+  EXPECT_EQ(axial_sigma(s, 1.0, 0.5 * M_PI, s.albedo), axial_sigma(s, 1.0, steep, s.albedo)) << "clamped at 80";
   EXPECT_LT(axial_sigma(s, 1.0, steep, s.albedo), 0.01);
   EXPECT_NEAR(axial_sigma(s, 1.0, 0.0, s.albedo / 4) / axial_sigma(s, 1.0, 0.0, s.albedo), 2.0, 1e-12);
 }

@@ -220,7 +220,7 @@ TEST(NarrowPhase, FacesAboutToMeetHaveAsManyContactsAsThoseThatTouch) {
     World world = world_of_boxes(shape, 2);
     world.settings.time_step = 1 / 120.0f;
     world.bodies[0].v.z() = 0.4f;
-    world.bodies[1].x.z() = 0.01f + gap + world.plan().half_way * world.bodies[0].v.z();
+    world.bodies[1].x.z() = 0.01f + gap + world.plan().contact_time * world.bodies[0].v.z();
     find_pairs(world);
     find_contacts(world);
     ASSERT_EQ(world.manifolds.size(), 1u);

@@ -73,11 +73,11 @@ TEST(NarrowPhase, ContactsAreFoundWithinTheMarginAndTheWayOfAStep) {
   const float dt = world.settings.time_step, kept = world.settings.margin * world.smallest_size;
   const float fall = world.gravity.norm() * dt * dt, rounding = 1e-6f;
   for (const float speed : {0.0f, 0.05f}) {
-    const float reach = kept + fall + speed * dt, half_way = 0.5f * speed * dt;  // contacts are those of half the step
+    const float reach = kept + fall + speed * dt, to_contact_time = 0.5f * speed * dt;  // displacement
     world = falling_cube(shape, reach - rounding, speed);
     ASSERT_EQ(world.manifolds.size(), 1u);
     EXPECT_GE(world.manifolds[0].contacts.size(), 4u) << speed;
-    world = falling_cube(shape, reach + half_way + rounding, speed);
+    world = falling_cube(shape, reach + to_contact_time + rounding, speed);
     if (world.manifolds.empty()) continue;
     EXPECT_TRUE(world.manifolds[0].contacts.empty()) << speed;
     color_manifolds(world);

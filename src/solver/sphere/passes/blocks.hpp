@@ -24,7 +24,7 @@ struct Slice {
 
 class Blocks {
  public:
-  /// Blocks have at least so many bodies, but for the last, so that bundles are filled; more where more are joined.
+  /// Smallest number of bodies of a block (except the last one), so that bundles are filled.
   static constexpr std::size_t usual_bodies = 256;
 
   /// Of the world's colored manifolds. Memory is kept from one step to the next.
@@ -33,9 +33,9 @@ class Blocks {
   std::size_t count() const { return body_start_.size() - 1; }
   /// That move; ascending.
   Slice bodies(std::size_t block) const { return slice(bodies_, body_start_, block); }
-  /// By color, ascending within it.
+  /// Manifolds of a block, sorted by color and then in ascending order.
   Slice manifolds(std::size_t block) const { return slice(manifolds_, manifold_start_, block); }
-  /// Of a body in its block; of what does not move, or the ground: behind all bodies of `block`.
+  /// Returns the index of a body within its block. Static bodies and the ground come after all bodies of `block`.
   std::uint32_t place(std::size_t block, std::uint32_t body) const {
     return body == ground || place_[body] == unmoved ? static_cast<std::uint32_t>(bodies(block).size()) : place_[body];
   }

@@ -57,7 +57,7 @@ void candidates_of_pair(const World& world, const Manifold& m, const Placement& 
   const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
   // The last sweeps look as far ahead as another sub-step.
-  const float rest = world.settings.time_step - world.plan().half_way + world.plan().sub_step;
+  const float rest = world.settings.time_step - world.plan().contact_time + world.plan().sub_step;
   const Drift a_goes(rest, a, b), b_goes(rest, b, a);
   const View::Tested tested_a{samples_a, sa.field}, tested_b{samples_b, sb.field};
   View of_a(tested_a, tested_b, a_to_b, b_to_a, out), of_b(tested_b, tested_a, b_to_a, b_to_a, out);

@@ -20,7 +20,7 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
-/// A body at the time within the step at which its contacts are found (StepPlan::half_way).
+/// A body at the time within the step at which its contacts are found (StepPlan::contact_time).
 struct Placement {
   Vec3f x;
   Mat3f rotation;
@@ -31,8 +31,8 @@ struct Placement {
     v = body.v;
     w = body.w;
     if (body.inverse_mass > 0) v += world.settings.time_step * world.gravity;
-    x += world.plan().half_way * body.v;
-    rotation = integrated(body.q, body.w, world.plan().half_way).toRotationMatrix();
+    x += world.plan().contact_time * body.v;
+    rotation = integrated(body.q, body.w, world.plan().contact_time).toRotationMatrix();
   }
 };
 

@@ -12,11 +12,11 @@ namespace {
 
 constexpr int shared_color = SPHERE_COLORS - 1;  ///< its manifolds found no color of their own: one to a bundle
 
-/// @param half_way  StepPlan::half_way (s)
+/// @param contact_time  StepPlan::contact_time (s)
 /// @param body      null for the ground
-Ahead ahead_of(float half_way, const Body* body) {
+Ahead ahead_of(float contact_time, const Body* body) {
   if (!body || !body->moves()) return {Vec3f::Zero(), Vec3f::Zero()};
-  return {half_way * body->v, half_way * body->w};
+  return {contact_time * body->v, contact_time * body->w};
 }
 
 /// Bodies of a manifold; b is null for the ground.
@@ -25,8 +25,8 @@ struct Bodies {
   const Body* b;
   Ahead ahead_a, ahead_b;
 
-  Bodies(float half_way, const Body& first, const Body* second)
-      : a(first), b(second), ahead_a(ahead_of(half_way, &first)), ahead_b(ahead_of(half_way, second)) {}
+  Bodies(float contact_time, const Body& first, const Body* second)
+      : a(first), b(second), ahead_a(ahead_of(contact_time, &first)), ahead_b(ahead_of(contact_time, second)) {}
 };
 
 void set_lane(ContactRows& rows, int lane, Contact& c, const Bodies& bodies, float warm) {
@@ -35,7 +35,7 @@ void set_lane(ContactRows& rows, int lane, Contact& c, const Bodies& bodies, flo
   c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
   Vec3f ra = a.rotation * c.anchor_a, rb = b ? Vec3f(b->rotation * c.anchor_b) : c.anchor_b;
   rows.separation[lane] = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
-  go_half_way(field_of_a, bodies.ahead_a, bodies.ahead_b, ra, rb, c.normal);
+  move_to_contact_time(field_of_a, bodies.ahead_a, bodies.ahead_b, ra, rb, c.normal);
   const Vec3f t1 = c.normal.unitOrthogonal();
   rows.normal.set(lane, c.normal);
   rows.tangent.set(lane, t1);
@@ -135,7 +135,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
   const float warm = world.forgets || !world.settings.warm_start
                          ? 0.0f
                          : h;  // s for which the last forces have acted when the sweeps begin
-  const float half_way = world.plan().half_way;
+  const float contact_time = world.plan().contact_time;
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];
@@ -147,7 +147,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
-    const Bodies bodies(half_way, a, b);
+    const Bodies bodies(contact_time, a, b);
     m.depth = 0;
     for (std::uint32_t k = 0; k < m.contacts.size(); ++k) {
       set_lane(rows[bundle.first + k], lane, m.contacts[k], bodies, warm);

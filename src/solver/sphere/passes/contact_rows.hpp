@@ -84,7 +84,7 @@ struct Velocities {
   LaneVec va, wa, vb, wb;
   Lanes inverse_mass_a{}, inverse_mass_b{};
 
-  /// Of b's point away from a's (m/s).
+  /// Returns the speed at which b's point of the contact moves away from a's (m/s).
   LaneVec at(const ContactRows& c) const { return vb + cross(wb, c.rb) - va - cross(wa, c.ra); }
 
   /// The same along the normal.
@@ -118,7 +118,7 @@ struct Displacements {
   }
 };
 
-/// A vector of each of the bodies of eight lanes; the fourth values into `fourth`.
+/// Reads one vector of eight bodies, one for each lane. The fourth components are stored in `fourth`.
 inline LaneVec gather(const LaneBodies& bodies, const std::vector<Motion>& motions, Quad Motion::*vector,
                       Lanes& fourth) {
   Quad q[lane_count];

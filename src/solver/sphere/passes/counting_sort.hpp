@@ -1,4 +1,5 @@
-/// Sorts items by small integers in linear time, and keeps the order of equal items.
+/// Sorts items by small integers in linear time, and keeps the order of equal items. The passes sort pairs, manifolds
+/// and blocks with it; the kept order makes results repeatable.
 #pragma once
 
 #include "bin_scenes/core/assertion.hpp"

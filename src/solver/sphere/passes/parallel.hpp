@@ -1,4 +1,5 @@
-/// Runs the loops of a step in all threads.
+/// Runs the loops of a step in all threads. A thread that waits for the others does not begin work of another world,
+/// because the worlds of a thread share scratch memory. A cancelled job ends its loops early.
 #pragma once
 
 #include "bin_scenes/core/cancel.hpp"

@@ -1,4 +1,6 @@
-/// Selects the contacts of a manifold from the candidates of a pair, and their initial forces from the last step.
+/// Selects the contacts of a manifold from the candidates of a pair, at most eight. A selected contact that was there
+/// in the last step starts with the forces of that step (warm start). The rule of selection is in
+/// shaders/shared/sphere/choice.h, which the GPU form uses as well.
 #pragma once
 
 #include "solver/sphere/passes/candidates.hpp"
@@ -7,7 +9,7 @@ namespace bin_scenes::sphere {
 
 #include "shared/sphere/choice.h"
 
-/// The few candidates that stand for all (shared/sphere/choice.h).
+/// The few candidates that represent all (shared/sphere/choice.h).
 /// @param old  manifold of the last step
 /// @param size  of the smaller part (m)
 /// @param soon  gap beyond the least up to which is about to touch (m)
@@ -16,7 +18,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, float
 
 /// Forces of the last step's contacts: by feature, unless features mean other points now (Manifold::found), else from
 /// the nearest with a like normal.
-/// @param near  how far apart such contacts may lie (m)
+/// @param near  largest distance of such contacts (m)
 void carry_forces(const Manifold& old, std::vector<Contact>& fresh, float near);
 
 }  // namespace bin_scenes::sphere

@@ -1,4 +1,5 @@
-/// Newton's restitution at the end of a step: bodies that collided separate with a share of their approach speed.
+/// Newton's restitution at the end of a step: bodies that collided separate with a share of their approach speed. It is
+/// done after all sub-steps, in sweeps of its own, because an impact must first have propagated through the heap.
 #pragma once
 
 #include "solver/sphere/passes/contact_rows.hpp"

@@ -8,7 +8,7 @@
 
 namespace bin_scenes::sphere {
 
-/// Whose samples are tested, and where they lie in the frame of the field.
+/// The body whose samples are tested, and its pose in the frame of the field.
 struct View {
   /// A body as far as the tests need it.
   struct Tested {

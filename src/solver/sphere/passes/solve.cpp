@@ -43,7 +43,7 @@ class ContactSolver {
                        settings_.push_speed / static_cast<float>(world.softness().refinement) * world.smallest_size)),
         firmly_(firmly(h_)),
         shares_impacts_(world.impact_sweeps(false) > 0),
-        tolerance_(settings_.tolerance * world.smallest_size),
+        tolerance_(world.tolerance(false)),
         motions_(scratch.motions),
         free_(scratch.free),
         slides_(scratch.slides),
@@ -125,7 +125,7 @@ class ContactSolver {
   const float impact_speed_;  ///< m/s
   const Give softly_, firmly_;
   const bool shares_impacts_;  ///< by further sweeps
-  const float tolerance_;      ///< m/s
+  float tolerance_;            ///< m/s
   bool friction_holds_ = true;
   bool impact_ = false;    ///< some contact closes fast
   bool unshared_ = false;  ///< an impact is, in this sub-step
@@ -163,6 +163,7 @@ void ContactSolver::prepare() {
       for (const std::uint32_t i : {bundle.a[lane], bundle.b[lane]})
         if (i < free_.size()) free_[i] = 0;
   }
+  tolerance_ = world_.tolerance(impact_);
 }
 
 /// Gravity, and the gyroscopic term.

@@ -1,5 +1,6 @@
 /// The forces on bodies in a rotating bin: Coriolis and centrifugal forces, and the force due to changes of the angular
-/// velocity.
+/// velocity. The simulation uses the frame of the bin, in which the bin is at rest; without a rotation these forces are
+/// zero.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"
@@ -7,7 +8,7 @@
 
 namespace bin_scenes::sphere {
 
-/// Over a sub-step of `h` seconds. In double precision, as the gyroscopic term.
+/// Changes the velocities of bodies by these forces over a sub-step of `h` seconds, computed in double precision.
 inline void turn_with_bin(const World& world, const Slice& bodies, float h, std::vector<Motion>& motions) {
   const auto vector = [](Quad q) { return Vec3(q[0], q[1], q[2]); };
   const auto add = [h](Quad& to, const Vec3& change) {

@@ -37,7 +37,7 @@ void note_motion(const World& world, Body& b) {
   BIN_SCENES_ASSERT(b.still >= 0);
 }
 
-bool moved_lately(const World& world, std::uint32_t body) {
+bool moved_recently(const World& world, std::uint32_t body) {
   return world.bodies[body].moves() && world.bodies[body].still < world.settings.rest_window;
 }
 
@@ -50,16 +50,17 @@ bool touch(const Manifold& m) {
   return m.b != ground && !m.contacts.empty();
 }
 
-/// Whom bodies that moved lately keep awake: themselves and those joined to them, directly if bodies sleep by part. By
-/// touch they wake all that have contacts with them as they go on, pressed or not: what carried a part does so no more.
+/// Whom bodies that moved recently keep awake: themselves and those joined to them, directly if bodies sleep by part.
+/// By touch they wake all that have contacts with them as they go on, pressed or not: what carried a part does so no
+/// more.
 std::vector<char> kept_awake(const World& world) {
   const auto count = static_cast<std::uint32_t>(world.bodies.size());
   std::vector<char> awake(count, 0);
   if (world.sleep != Sleep::by_island) {
-    for (std::uint32_t i = 0; i < count; ++i) awake[i] = moved_lately(world, i);
+    for (std::uint32_t i = 0; i < count; ++i) awake[i] = moved_recently(world, i);
     const bool by_part = world.sleep == Sleep::by_part;
     for (const Manifold& m : world.manifolds)
-      if (by_part ? joins(world, m) && (moved_lately(world, m.a) || moved_lately(world, m.b))
+      if (by_part ? joins(world, m) && (moved_recently(world, m.a) || moved_recently(world, m.b))
                   : touch(m) && (went_on(world, m.a) || went_on(world, m.b)))
         awake[m.a] = awake[m.b] = 1;
     return awake;
@@ -67,7 +68,7 @@ std::vector<char> kept_awake(const World& world) {
   DisjointSets islands = islands_of(world);
   std::vector<char> of_island(count, 0);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (moved_lately(world, i)) of_island[islands.root(i)] = 1;
+    if (moved_recently(world, i)) of_island[islands.root(i)] = 1;
   for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.root(i)];
   return awake;
 }

@@ -1,4 +1,5 @@
-/// Lists the edges of a part that are near a point, by blocks of cells of its distance field.
+/// Lists the edges of a part that are near a point, by blocks of cells of its distance field. The test of a sample
+/// looks up the block of its point and examines these edges only.
 #pragma once
 
 #include "solver/sphere/shapes/field.hpp"

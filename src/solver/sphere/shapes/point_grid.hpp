@@ -1,4 +1,5 @@
-/// Sorts points of a part into the cells of a regular grid, to find the points near a given one.
+/// Sorts points of a part into the cells of a regular grid, to find the points near a given one. It is used while a
+/// shape is made, not during a step.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -10,7 +11,7 @@ namespace bin_scenes::sphere {
 
 class PointGrid {
  public:
-  /// `reach` (m) is the radius that will mostly be asked for; any other is right, too.
+  /// `reach` (m) is the radius of most searches; searches with other radii are correct as well.
   PointGrid(std::vector<Vec3> points, double reach);
 
   /// Whether visit(index) returned true for any point within `radius` of the place; it stops at the first one.

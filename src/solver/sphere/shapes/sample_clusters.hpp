@@ -1,5 +1,5 @@
-/// Sorts nodes into clusters, and computes the bounding sphere of each cluster, with which all of its nodes are
-/// rejected together.
+/// Sorts nodes into clusters of 16 neighbours, and computes the bounding sphere of each cluster. One value of a
+/// distance field then rejects all nodes of a cluster at once, which is what happens to most of them in a step.
 #pragma once
 
 #include "solver/sphere/shapes/sample_draft.hpp"
