@@ -190,6 +190,13 @@ std::vector<Mesh> cleared(std::vector<Mesh> hulls, const std::vector<RoundHole>&
   return hulls;
 }
 
+Mesh whole_hull(const Mesh& mesh, const HullOptions& options) {
+  Mesh whole = convex_hull(mesh.vertices, options.max_vertices);
+  if (whole.empty())
+    throw input_error("all vertices lie in one plane", "convex_hulls", "give a closed mesh with a volume");
+  return whole;
+}
+
 void check_options(const HullOptions& options) {
   if (options.max_hulls < 1 || options.max_vertices < 4 || !(options.max_error > 0) ||
       !(options.max_volume_error > 0)) {
@@ -220,11 +227,7 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
     excess = found;
     best = {std::move(hulls), surface, volume_error, found <= 1};
   };
-  const Mesh whole = convex_hull(mesh.vertices, options.max_vertices);
-  if (whole.empty()) {
-    throw input_error("all vertices lie in one plane", "convex_hulls", "give a closed mesh with a volume");
-  }
-  judge({whole}, nullptr);
+  judge({whole_hull(mesh, options)}, nullptr);
   // Cutting a convex part helps nothing: a round one needs more vertices instead.
   if (!best.met && mass_properties(convex_hull(mesh.vertices, all_vertices)).volume < (1 + convex_enough) * volume) {
     for (int more = 2; more <= most_more && !best.met; more *= 2) {

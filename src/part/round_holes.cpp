@@ -1,3 +1,5 @@
+/// Finds round holes by the concave edges of their walls, and cuts what hulls have inside them off by planes that touch
+/// their cylinders.
 #include "round_holes.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

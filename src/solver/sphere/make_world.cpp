@@ -14,6 +14,9 @@ namespace bin_scenes::sphere {
 
 namespace {
 
+/// Heaviest / lightest part of worlds that solve impacts exactly; beyond, most_impact_sweeps does not suffice.
+constexpr float exact_mass_ratio = 40;
+
 Body make_body(const Shape& shape, std::uint32_t index, const BodyDef& def) {
   Body body;
   body.shape = index;
@@ -45,7 +48,6 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
                  const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base) {
   World w;
   w.scene = def.scene;
-  w.exact_impacts = def.exact_impacts;
   w.settings = base;
   w.settings.sub_steps = settings.sub_steps;
   w.settings.cut_steps = base.cut_steps && settings.cut_steps;
@@ -86,6 +88,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   BIN_SCENES_ASSERT(w.effort >= 1 && w.cuts >= 1 && w.settings.sub_steps >= 1);
   BIN_SCENES_ASSERT(each_is(w.bodies, [](const Body& b) { return b.inverse_mass >= 0 && b.inertia.allFinite(); }));
   w.mass_ratio = mass_ratio_of(w);
+  w.exact_impacts = def.exact_impacts && w.mass_ratio <= exact_mass_ratio;
   w.mass_effort = effort_of_masses(w);
   w.settings.push_speed = push_speed_of_masses(w);
   return w;
