@@ -2,6 +2,8 @@
 /// and mean distance are then those of plane polygons, by formulas.
 #include "grasp/pad.hpp"
 
+#include "part/tree_walk.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,12 +17,16 @@ using Polygon = PadFacet::Polygon;
 /// Keeps the side where sign * (coordinate - limit) <= 0 (Sutherland & Hodgman 1974).
 void clip(Polygon& polygon, int coordinate, double sign, double limit) {
   std::array<double, Polygon::most> beyond;
-  bool any = false;
+  int count = 0;
   for (int i = 0; i < polygon.count; ++i) {
     beyond[i] = sign * (polygon.points[i][coordinate] - limit);
-    any = any || beyond[i] > 0.0;
+    count += beyond[i] > 0.0;
   }
-  if (!any) return;
+  if (count == 0) return;
+  if (count == polygon.count) {
+    polygon.count = 0;
+    return;
+  }
   Polygon kept;
   for (int i = 0; i < polygon.count; ++i) {
     const int next = i + 1 < polygon.count ? i + 1 : 0;
@@ -29,7 +35,8 @@ void clip(Polygon& polygon, int coordinate, double sign, double limit) {
     if ((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0))
       kept.add(polygon.points[i] + a / (a - b) * (polygon.points[next] - polygon.points[i]));
   }
-  polygon = kept;
+  polygon.count = kept.count;
+  std::copy_n(kept.points.begin(), kept.count, polygon.points.begin());
 }
 
 Aabb bounds_of(const Pad& pad) {
@@ -41,25 +48,37 @@ Aabb bounds_of(const Pad& pad) {
   return box;
 }
 
-/// The triangle as the pad sees it; none if it faces away.
-std::optional<PadFacet> facet_of(const Mesh& mesh, std::size_t triangle, const Pad& pad) {
-  const Vec3 area = mesh.area_vector(triangle);
-  const double length = area.norm();
-  if (!(area.dot(pad.out) > 1e-9 * length)) return std::nullopt;
-  PadFacet facet;
-  facet.normal = Vec3(area.dot(pad.u), area.dot(pad.v), area.dot(pad.out)) / length;
-  for (const std::uint32_t i : mesh.triangles[triangle]) {
-    const Vec3 x = mesh.vertices[i] - pad.center;
-    facet.polygon.add({x.dot(pad.u), x.dot(pad.v), x.dot(pad.out)});
-  }
-  return facet;
-}
-
 void clip_to_rectangle(Polygon& polygon, const Pad& pad) {
   clip(polygon, 0, 1.0, pad.half_u);
   clip(polygon, 0, -1.0, -pad.half_u);
   clip(polygon, 1, 1.0, pad.half_v);
   clip(polygon, 1, -1.0, -pad.half_v);
+}
+
+/// The triangle as the pad sees it; none if it faces away, is beside the pad, or is lower than `least`.
+std::optional<PadFacet> facet_of(const Mesh& mesh, std::size_t triangle, const Pad& pad, double least) {
+  PadFacet facet;
+  for (const std::uint32_t i : mesh.triangles[triangle]) {
+    const Vec3 x = mesh.vertices[i] - pad.center;
+    facet.polygon.add({x.dot(pad.u), x.dot(pad.v), x.dot(pad.out)});
+  }
+  if (facet.polygon.highest() < least) return std::nullopt;
+  clip_to_rectangle(facet.polygon, pad);
+  if (facet.polygon.count < 3) return std::nullopt;
+  const Vec3 area = mesh.area_vector(triangle);
+  const double length = area.norm();
+  if (!(area.dot(pad.out) > 1e-9 * length)) return std::nullopt;
+  facet.normal = Vec3(area.dot(pad.u), area.dot(pad.v), area.dot(pad.out)) / length;
+  return facet;
+}
+
+/// Whether a box is certainly beside the pad or lower than `least`.
+bool is_apart(const Aabb& box, const Pad& pad, double least) {
+  const Vec3 mid = box.center() - pad.center, half = 0.5 * box.size();
+  const double rounding = 1e-9 * (pad.half_u + pad.half_v);
+  const auto reach = [&](const Vec3& axis) { return axis.cwiseAbs().dot(half) + rounding; };
+  return std::abs(mid.dot(pad.u)) > pad.half_u + reach(pad.u) || std::abs(mid.dot(pad.v)) > pad.half_v + reach(pad.v) ||
+         mid.dot(pad.out) + reach(pad.out) < least;
 }
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -113,6 +132,23 @@ void set_points(PadContact& contact, const std::vector<PadFacet>& facets, const 
   if (contact.points.empty()) contact.points = small;
 }
 
+/// Calls `use(facet)` for each triangle that the pad sees, until it returns true; those lower than `least` may be left
+/// out, which `use` may raise.
+template <class Use>
+void for_each_facet(const MeshQuery& query, const Pad& pad, const double& least, const Use& use) {
+  const Aabb bounds = bounds_of(pad);
+  const Mesh& mesh = query.mesh();
+  any_near(
+      query, [&](const Aabb& box) { return !box.overlaps(bounds) || is_apart(box, pad, least); },
+      [&](std::size_t triangle) {
+        Aabb box;
+        for (const std::uint32_t v : mesh.triangles[triangle]) box.extend(mesh.vertices[v]);
+        if (!box.overlaps(bounds)) return false;
+        const std::optional<PadFacet> facet = facet_of(mesh, triangle, pad, least);
+        return facet && use(*facet);
+      });
+}
+
 }  // namespace
 
 double PadFacet::Polygon::highest() const {
@@ -143,32 +179,29 @@ double distance_integral(const std::vector<Vec2>& polygon, const Vec2& from) {
 }
 
 std::optional<PressedPad> PressedPad::on(const MeshQuery& mesh, const Pad& pad) {
-  PressedPad pressed(pad);
-  bool obstructed = false;
-  mesh.overlapping(bounds_of(pad), [&](std::size_t triangle) {
-    std::optional<PadFacet> facet = obstructed ? std::nullopt : facet_of(mesh.mesh(), triangle, pad);
-    if (!facet || facet->polygon.highest() < pressed.height_ - pad.give) return;
-    clip_to_rectangle(facet->polygon, pad);
-    if (facet->polygon.count < 3) return;
-    pressed.height_ = std::max(pressed.height_, facet->polygon.highest());
-    obstructed = pressed.height_ >= pad.start * (1.0 - 1e-9);
-    pressed.facets_.push_back(*facet);
+  double height = -std::numeric_limits<double>::infinity();
+  const double start = pad.start * (1.0 - 1e-9);
+  for_each_facet(mesh, pad, height, [&](const PadFacet& facet) {
+    height = std::max(height, facet.polygon.highest());
+    return height >= start;
   });
-  if (obstructed || pressed.facets_.empty()) return std::nullopt;
-  return pressed;
+  if (height >= start || !std::isfinite(height)) return std::nullopt;
+  return PressedPad(mesh, pad, height);
 }
 
 std::optional<PadContact> PressedPad::contact() const {
   const double steepest = 1.0 / std::sqrt(1.0 + pad_.friction * pad_.friction);  // cosine of the cone's half angle
+  const double lowest = height_ - pad_.give;
   std::vector<PadFacet> facets;
   Sums sums;
-  for (PadFacet facet : facets_) {
-    if (facet.normal.z() < steepest * (1.0 - 1e-9)) continue;
-    clip(facet.polygon, 2, -1.0, height_ - pad_.give);
-    if (facet.polygon.count < 3) continue;
+  for_each_facet(mesh_, pad_, lowest, [&](PadFacet facet) {
+    if (facet.normal.z() < steepest * (1.0 - 1e-9)) return false;
+    clip(facet.polygon, 2, -1.0, lowest);
+    if (facet.polygon.count < 3) return false;
     add(sums, facet);
     facets.push_back(facet);
-  }
+    return false;
+  });
   if (!(sums.area > 0.0)) return std::nullopt;
   PadContact contact;
   contact.share = sums.area / (4.0 * pad_.half_u * pad_.half_v);

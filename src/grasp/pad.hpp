@@ -47,18 +47,18 @@ struct PadFacet {
 /// most of the time.
 class PressedPad {
  public:
-  /// None if nothing is below the pad, or if something obstructs it before it starts.
+  /// None if nothing is below the pad, or if something obstructs it before it starts. The mesh must outlive the result.
   static std::optional<PressedPad> on(const MeshQuery& mesh, const Pad& pad);
   double height() const { return height_; }  ///< m of the pad over Pad::center
   /// None if all facets below the pad are too steep.
   std::optional<PadContact> contact() const;
 
  private:
-  explicit PressedPad(const Pad& pad) : pad_(pad) {}
+  PressedPad(const MeshQuery& mesh, const Pad& pad, double height) : mesh_(mesh), pad_(pad), height_(height) {}
 
+  const MeshQuery& mesh_;
   Pad pad_;
-  double height_ = -std::numeric_limits<double>::infinity();
-  std::vector<PadFacet> facets_;  ///< all that may be in contact
+  double height_;
 };
 
 /// Integral over a plane polygon, counter-clockwise, of the distance from a point (m3).
