@@ -123,7 +123,7 @@ class PartGrasper {
     for (const Eye& eye : eyes) eye.look(known, grasp);
     grasp.columns.seen = best(grasp.visible);
     grasp.columns.measured = best(grasp.measured);
-    grasp.score = score_of(grasp.columns, gripper_.score);
+    grasp.score = score_of(grasp.columns, gripper_);
     return grasp;
   }
 

@@ -31,11 +31,12 @@ GraspColumns columns_of(const Grasp& grasp, const Hold& hold, const Gripper& gri
   return columns;
 }
 
-double score_of(const GraspColumns& c, const ScoreWeights& w) {
+double score_of(const GraspColumns& c, const Gripper& gripper) {
+  const ScoreWeights w = gripper.weights();
   const auto spare = [](double factor) { return std::log(std::clamp(factor, 1.0 / safe, safe)); };
-  const double sum = w.bias + w.holding * spare(c.safety) + w.sliding * spare(c.sliding) + w.antipodal * c.antipodal +
-                     w.moment * c.moment + w.overlap * c.overlap + w.upright * c.upright + w.clearance * c.clearance +
-                     w.closing * c.closing + w.seen * c.seen + w.measured * c.measured;
+  const double sum = *w.bias + *w.holding * spare(c.safety) + *w.sliding * spare(c.sliding) +
+                     w.antipodal * c.antipodal + w.moment * c.moment + w.overlap * c.overlap + w.upright * c.upright +
+                     w.clearance * c.clearance + w.closing * c.closing + w.seen * c.seen + w.measured * c.measured;
   return 1.0 / (1.0 + std::exp(-sum));
 }
 

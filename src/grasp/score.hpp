@@ -11,7 +11,8 @@ namespace bin_scenes {
 /// @param tilt  rad, angle of approach and gravity
 GraspColumns columns_of(const Grasp& grasp, const Hold& hold, const Gripper& gripper, double friction, double tilt);
 
-/// 1 / (1 + exp(-(bias + sum of weight * column))); the safety factors count by their logarithms.
-double score_of(const GraspColumns& columns, const ScoreWeights& weights);
+/// 1 / (1 + exp(-(bias + sum of weight * column))), with the gripper's weights; the safety factors count by their
+/// logarithms.
+double score_of(const GraspColumns& columns, const Gripper& gripper);
 
 }  // namespace bin_scenes

@@ -25,7 +25,8 @@ GraspJson pose_json(const Pose& pose) {
 /// The values of a table of keys that are numbers.
 struct NumbersJson {
   GraspJson json;
-  void field(const Key& key, double& value) { json[key.name] = value; }
+  void field(const Key& key, double value) { json[key.name] = value; }
+  void field(const Key& key, const std::optional<double>& value) { json[key.name] = value.value(); }
 };
 
 GraspJson weights_json(ScoreWeights weights) {
@@ -77,7 +78,7 @@ GraspJson gripper_json(const Gripper& g) {
                {"most", g.most},
                {"free_wanted", g.free_wanted},
                {"tries", g.tries},
-               {"score", weights_json(g.score)}});
+               {"score", weights_json(g.weights())}});
   return json;
 }
 

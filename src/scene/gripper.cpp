@@ -15,6 +15,11 @@ namespace {
 constexpr double longest = 2.0, shortest = 1e-4;  // m
 constexpr double widest_clearance = 0.2;          // m
 
+// Fitted to lifts by bench/datasets/calibration. The vacuum of a cup fails within a narrow range of loads, whereas a
+// part may turn between fingers and be lifted all the same.
+constexpr double bias_of_fingers = -0.4, holding_of_fingers = 1.0, sliding_of_fingers = 2.3;
+constexpr double bias_of_cup = -1.4, holding_of_cup = 5.8, sliding_of_cup = 1.7;
+
 std::string metres(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g m", value);
@@ -38,6 +43,15 @@ std::vector<std::pair<const char*, double>> lengths(const Gripper& g) {
 }
 
 }  // namespace
+
+ScoreWeights Gripper::weights() const {
+  const bool cup = type == Type::suction;
+  ScoreWeights all = score;
+  all.bias = score.bias.value_or(cup ? bias_of_cup : bias_of_fingers);
+  all.holding = score.holding.value_or(cup ? holding_of_cup : holding_of_fingers);
+  all.sliding = score.sliding.value_or(cup ? sliding_of_cup : sliding_of_fingers);
+  return all;
+}
 
 double Gripper::opened(const Aperture& at) const {
   const double room = at.inner ? between_fingers(at) : travel() - at.width;

@@ -49,6 +49,17 @@ TEST_F(Grippers, WeightsOfTheScoreAreKeys) {
   EXPECT_EQ(grippers[1].score.upright, ScoreWeights().upright);
 }
 
+TEST_F(Grippers, CalibratedWeightsDependOnTheType) {
+  const std::vector<Gripper> grippers =
+      grippers_of("[cup_20mm, franka_hand, {preset: cup_20mm, name: c, score: {holding: 2}}]");
+  const ScoreWeights cup = grippers[0].weights(), fingers = grippers[1].weights(), set = grippers[2].weights();
+  EXPECT_GT(cup.holding.value(), fingers.holding.value());
+  EXPECT_LT(cup.bias.value(), fingers.bias.value());
+  EXPECT_EQ(set.holding.value(), 2.0);
+  EXPECT_EQ(set.bias.value(), cup.bias.value());
+  EXPECT_EQ(set.closing, cup.closing);
+}
+
 TEST_F(Grippers, ProofsNeedThem) {
   EXPECT_EQ(read(with("[cup_20mm]\nprove: 5")).prove, 5u);
   EXPECT_EQ(write_request(read(with("[cup_20mm]"))).find("prove"), std::string::npos);

@@ -27,6 +27,22 @@ Gripper large_fingers() {
   return gripper;
 }
 
+/// As config/grippers/franka_hand.yaml.
+Gripper franka() {
+  Gripper gripper;
+  gripper.name = "franka";
+  gripper.stroke = 0.08;
+  gripper.force = 70.0;
+  gripper.friction = 0.6;
+  gripper.palm = Vec3(0.204, 0.063, 0.066);
+  gripper.finger_width = 0.0175;
+  gripper.finger_depth = 0.047;
+  gripper.finger_thickness = 0.0152;
+  gripper.pad_length = 0.0185;
+  gripper.opening = 0.006;
+  return gripper;
+}
+
 Gripper slim_fingers() {
   Gripper gripper = two_fingers();
   gripper.finger_width = 0.008;
@@ -43,6 +59,7 @@ struct Best {
 
   Best(const Gripper& gripper, const Mesh& mesh, const Pose& pose) {
     Stage stage({gripper});
+    stage.loaded.request.bin.inner_size = Vec3(0.4, 0.4, 0.1);  // wide enough for each palm at each turn
     stage.put(stage.add(mesh), pose.position, pose.orientation);
     for (const SceneGrasp& one : stage.find().grasps) {
       if (!one.free() || (any && one.score <= grasp.score)) continue;
@@ -64,7 +81,7 @@ struct Best {
 };
 
 TEST(CanonicalGrasps, CubeFromAboveByTwoFaces) {
-  for (const Gripper& gripper : {two_fingers(), large_fingers(), slim_fingers()}) {
+  for (const Gripper& gripper : {two_fingers(), large_fingers(), slim_fingers(), franka()}) {
     // Any turn about the vertical, which is no principal axis more than another.
     for (const double turn : {0.0, 0.4}) {
       const Best best(gripper, test::box_mesh(Vec3::Constant(0.04)),
@@ -89,7 +106,7 @@ TEST(CanonicalGrasps, BrickFromAboveAcrossItsNarrowerSide) {
 
 TEST(CanonicalGrasps, LyingCylinderFromAboveAcrossItsAxis) {
   const Quat lying(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY()));
-  for (const Gripper& gripper : {large_fingers(), two_fingers()}) {
+  for (const Gripper& gripper : {large_fingers(), two_fingers(), franka()}) {
     const Best best(gripper, test::prism_mesh(0.012, 0.06, 48), {Vec3(0, 0, 0.012), lying});
     ASSERT_TRUE(best.any);
     EXPECT_LT(best.tilt, 4.0) << gripper.name;
@@ -106,7 +123,7 @@ TEST(CanonicalGrasps, BoltByItsShaft) {
   const Mesh mesh = test::bolt_mesh();
   double lowest = 0.0;
   for (const Vec3& v : mesh.vertices) lowest = std::min(lowest, (lying * v).z());
-  for (const Gripper& gripper : {slim_fingers(), two_fingers(), large_fingers()}) {
+  for (const Gripper& gripper : {slim_fingers(), two_fingers(), large_fingers(), franka()}) {
     const Best best(gripper, mesh, {Vec3(0, 0, -lowest), lying});
     ASSERT_TRUE(best.any) << gripper.name;
     EXPECT_LT(best.tilt, 8.0) << gripper.name;
@@ -120,7 +137,7 @@ TEST(CanonicalGrasps, BoltByItsShaft) {
 TEST(CanonicalGrasps, RingByItsWall) {
   // Fingers narrow enough for the hole; wider ones rest on two lines in it.
   const Mesh mesh = test::ring(0.03, 0.022, 0.01, 48).mesh;
-  for (const Gripper& gripper : {slim_fingers(), two_fingers()}) {
+  for (const Gripper& gripper : {slim_fingers(), two_fingers(), franka()}) {
     const Best best(gripper, mesh, {Vec3(0, 0, 0.005), Quat::Identity()});
     ASSERT_TRUE(best.any) << gripper.name;
     EXPECT_LT(best.tilt, 4.0) << gripper.name;
@@ -137,7 +154,7 @@ TEST(CanonicalGrasps, PlateBySuctionAtItsCentreOfMass) {
 }
 
 TEST(CanonicalGrasps, CupByItsWall) {
-  for (const Gripper& gripper : {slim_fingers(), two_fingers()}) {
+  for (const Gripper& gripper : {slim_fingers(), two_fingers(), franka()}) {
     const Best best(gripper, test::cup_mesh(0.035, 0.05, 0.002), {Vec3(0, 0, 0.025), Quat::Identity()});
     ASSERT_TRUE(best.any) << gripper.name;
     EXPECT_LT(best.tilt, 4.0);

@@ -17,18 +17,17 @@
 
 namespace bin_scenes {
 
-/// Weights of the features from which the score of a grasp is computed (grasp/score.hpp): score = 1 / (1 + exp(-(bias +
-/// sum of weight * feature))). bench/datasets/calibration fitted the values.
+/// Weights of the columns from which the score of a grasp is computed (grasp/score.hpp): score = 1 / (1 + exp(-(bias +
+/// sum of weight * column))). bench/datasets/calibration fitted the first three, which differ between fingers and cups;
+/// Gripper::weights() fills in those that are left out.
 struct ScoreWeights {
-  double bias = -0.6;
-  double holding = 1.0;
-  double sliding = 2.3;
+  std::optional<double> bias, holding, sliding;
   double antipodal = 0.125;
   double moment = 0.25;
   double overlap = 0.25;
   double upright = 0.375;
   double clearance = 0.125;
-  double closing = 0.25;
+  double closing = 0.4;
   double seen = 0.0625;
   double measured = 0.0625;
 };
@@ -79,6 +78,8 @@ struct Gripper {
 
   /// m: by how much the opening of the fingers can change, or by how much a cup can be compressed.
   double travel() const { return stroke.value_or(type == Type::parallel ? 0.05 : 0.5 * radius); }
+  /// Returns `score` with the defaults of the gripper's type where weights are left out.
+  ScoreWeights weights() const;
   /// Parallel grippers, m: the largest width of a part that the opened fingers can pass, and the smallest and largest
   /// width of a hole that the fingers can enter.
   double widest() const { return travel() - 2.0 * finger_clearance; }
