@@ -18,13 +18,6 @@ double tip_of(const Gripper& g) {
   return g.type == Gripper::Type::parallel ? 0.5 * g.pad_length : 0.0;
 }
 
-/// Finger at +x with its inner face in the plane x = 0.
-std::vector<Aabb> finger_of(const Gripper& g) {
-  if (!g.finger_boxes.empty()) return g.finger_boxes;
-  const double tip = tip_of(g), half = 0.5 * g.finger_width;
-  return {{Vec3(0.0, -half, tip - g.finger_depth), Vec3(g.finger_thickness, half, tip)}};
-}
-
 /// Both fingers with their inner faces at any distance between `near` and `far` from the gripper's centre plane.
 void add_fingers(std::vector<Sweep>& all, const Gripper& g, double near, double far, double back, double margin) {
   for (const Aabb& part : finger_of(g)) {
@@ -64,6 +57,12 @@ void add_palm(std::vector<Sweep>& all, const Gripper& g, double back, double mar
 }
 
 }  // namespace
+
+std::vector<Aabb> finger_of(const Gripper& g) {
+  if (!g.finger_boxes.empty()) return g.finger_boxes;
+  const double tip = tip_of(g), half = 0.5 * g.finger_width;
+  return {{Vec3(0.0, -half, tip - g.finger_depth), Vec3(g.finger_thickness, half, tip)}};
+}
 
 std::vector<Sweep> approach_sweeps(const Gripper& g, const Aperture& at, double back, double margin) {
   std::vector<Sweep> all;

@@ -1,6 +1,7 @@
 /// grasps.json: what can be picked of a scene. One grasp a line.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "grasp/gripper_shape.hpp"
 #include "scene/gripper_keys.hpp"
 
 #include <nlohmann/json.hpp>
@@ -46,6 +47,14 @@ GraspJson columns_json(const GraspColumns& columns) {
   return json;
 }
 
+/// Lower and upper corner of each box.
+GraspJson boxes_json(const std::vector<Aabb>& boxes) {
+  GraspJson all = GraspJson::array();
+  for (const Aabb& box : boxes)
+    all.push_back({{box.lower.x(), box.lower.y(), box.lower.z()}, {box.upper.x(), box.upper.y(), box.upper.z()}});
+  return all;
+}
+
 /// What draws a gripper and what labels depend on; keys as in the request.
 GraspJson gripper_json(const Gripper& g) {
   GraspJson json = {{"name", g.name}};
@@ -55,6 +64,7 @@ GraspJson gripper_json(const Gripper& g) {
                  {"opening", g.opening},
                  {"finger_width", g.finger_width},
                  {"finger_thickness", g.finger_thickness},
+                 {"finger_boxes", boxes_json(finger_of(g))},
                  {"finger_clearance", g.finger_clearance},
                  {"inner", g.inner},
                  {"pad_length", g.pad_length},

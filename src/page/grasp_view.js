@@ -3,10 +3,15 @@
 function gripper_mesh(g, width, colour, inner) {
   const group = new THREE.Group(), tip = g.type === "parallel" ? g.pad_length / 2 : 0, top = tip - g.finger_depth;
   const solid = new THREE.MeshPhongMaterial({color: colour, specular: 0}), glass = new THREE.MeshPhongMaterial({color: colour, specular: 0, transparent: true, opacity: 0.18, depthWrite: false});
-  const add = (shape, material, x, z) => { const mesh = new THREE.Mesh(shape, material); mesh.position.set(x, 0, z); group.add(mesh); return mesh; };
+  const add = (shape, material, x, z, y = 0) => { const mesh = new THREE.Mesh(shape, material); mesh.position.set(x, y, z); group.add(mesh); return mesh; };
   if (g.type === "parallel") {
-    for (const side of [-1, 1])
-      add(new THREE.BoxBufferGeometry(g.finger_thickness, g.finger_width, g.finger_depth), solid, side * (width + (inner ? -1 : 1) * g.finger_thickness) / 2, tip - g.finger_depth / 2);
+    // Boxes of the finger at +x, closed; files of earlier versions have none.
+    const boxes = g.finger_boxes || [[[0, -g.finger_width / 2, top], [g.finger_thickness, g.finger_width / 2, tip]]];
+    const face = width / 2 - (inner ? g.finger_thickness : 0);
+    for (const [lower, upper] of boxes) {
+      const [x, y, z] = lower.map((value, k) => (value + upper[k]) / 2), size = lower.map((value, k) => upper[k] - value);
+      for (const side of [-1, 1]) add(new THREE.BoxBufferGeometry(...size), solid, side * (face + x), z, side * y);
+    }
   } else {
     const cup = Math.min(g.radius, g.finger_depth);
     add(new THREE.CylinderBufferGeometry(g.radius, g.radius / 2, cup, 24), solid, 0, -cup / 2).rotateX(Math.PI / 2);
