@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace bin_scenes {
 
@@ -54,7 +53,6 @@ Surfaces softened(Surfaces surfaces, double soft) {
 /// A row of pixels, and what all their paths see first.
 struct PathTracer::Row {
   std::size_t index = 0;
-  std::vector<std::uint32_t> columns;                      // of the pixels
   std::vector<std::array<Scramble, all_pairs>> scrambles;  // by pixel
   std::vector<Spot> spots;                                 // by pixel and sample
   bool drawn = false;
@@ -101,16 +99,10 @@ PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pos
       net_(sobol(setup.samples)) {}
 
 std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
-  std::vector<std::uint32_t> columns(static_cast<std::size_t>(lens_.width));
-  std::iota(columns.begin(), columns.end(), 0u);
-  return row(index, columns, grain);
-}
-
-std::vector<Rgb> PathTracer::row(std::size_t index, const std::vector<std::uint32_t>& columns, Grain* grain) const {
-  const std::size_t width = columns.size();
+  const auto width = static_cast<std::size_t>(lens_.width);
   thread_local Row row;  // both keep their memory
   thread_local Block block;
-  begin(row, index, columns);
+  begin(row, index);
   see(row);
   std::vector<Rgb> radiance;
   radiance.reserve(width);
@@ -131,12 +123,11 @@ std::vector<Rgb> PathTracer::row(std::size_t index, const std::vector<std::uint3
   return radiance;
 }
 
-void PathTracer::begin(Row& row, std::size_t index, const std::vector<std::uint32_t>& columns) const {
+void PathTracer::begin(Row& row, std::size_t index) const {
   row.index = index;
-  row.columns = columns;
-  row.scrambles.resize(columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    Random random = key_.of_piece(index * static_cast<std::size_t>(lens_.width) + columns[i]);
+  row.scrambles.resize(static_cast<std::size_t>(lens_.width));
+  for (std::size_t i = 0; i < row.scrambles.size(); ++i) {
+    Random random = key_.of_piece(index * row.scrambles.size() + i);
     for (Scramble& scramble : row.scrambles[i]) {
       const std::uint64_t both = random.next();
       scramble.x = static_cast<std::uint32_t>(both), scramble.y = static_cast<std::uint32_t>(both >> 32);
@@ -146,8 +137,8 @@ void PathTracer::begin(Row& row, std::size_t index, const std::vector<std::uint3
 }
 
 /// The points of a pixel in an order of its own: the same net, and so are its first quarter and any other.
-Eigen::Vector2d PathTracer::drawn(const Row& row, std::size_t pixel, int pair, std::uint32_t sample) const {
-  const Scramble& scramble = row.scrambles[pixel][static_cast<std::size_t>(pair)];
+Eigen::Vector2d PathTracer::drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const {
+  const Scramble& scramble = row.scrambles[column][static_cast<std::size_t>(pair)];
   const auto& point = net_[sample ^ scramble.order];
   return {(point[0] ^ scramble.x) * 0x1p-32, (point[1] ^ scramble.y) * 0x1p-32};
 }
@@ -158,15 +149,15 @@ Eigen::Vector2d PathTracer::drawn(const Block& block, const Vertex& vertex, int 
 
 void PathTracer::see(Row& row) const {
   row.spots.clear();
-  for (std::size_t pixel = 0; pixel < row.columns.size(); ++pixel) {
+  for (std::size_t column = 0; column < row.scrambles.size(); ++column) {
     for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(setup_.samples); ++s) {
-      Eigen::Vector2d at = drawn(row, pixel, place, s) - Eigen::Vector2d(0.5, 0.5);
+      Eigen::Vector2d at = drawn(row, column, place, s) - Eigen::Vector2d(0.5, 0.5);
       if (setup_.blur > 0.0) {
-        const Eigen::Vector2d normal = drawn(row, pixel, blurred, s);
+        const Eigen::Vector2d normal = drawn(row, column, blurred, s);
         at += setup_.blur * std::sqrt(-2.0 * std::log(1.0 - normal.x())) * on_unit_circle(normal.y());
       }
       Spot spot;
-      spot.u = static_cast<double>(row.columns[pixel]) + at.x(), spot.v = static_cast<double>(row.index) + at.y();
+      spot.u = static_cast<double>(column) + at.x(), spot.v = static_cast<double>(row.index) + at.y();
       spot.near = 1.0 / setup_.far;
       row.spots.push_back(spot);
     }
@@ -197,13 +188,13 @@ void PathTracer::begin(Block& block, const Row& row, std::size_t first, std::siz
 
 /// Through a point of the aperture to where the ray through its centre meets the plane in focus (Cook, Porter,
 /// Carpenter 1984, "Distributed ray tracing").
-Ray PathTracer::ray_of(const Row& row, std::size_t pixel, std::uint32_t sample) const {
-  const Spot& spot = row.spots[pixel * static_cast<std::size_t>(setup_.samples) + sample];
+Ray PathTracer::ray_of(const Row& row, std::size_t column, std::uint32_t sample) const {
+  const Spot& spot = row.spots[column * static_cast<std::size_t>(setup_.samples) + sample];
   const bool plain = !lens_.distorts() && lens_.skew == 0.0;
   const Vec3 ray =
       plain ? Vec3((spot.u - lens_.cx) / lens_.fx, (spot.v - lens_.cy) / lens_.fy, 1.0) : lens_.ray(spot.u, spot.v);
   if (setup_.aperture == 0.0) return {pose_.position, turn_ * ray, setup_.near, setup_.far};
-  const Eigen::Vector2d at = drawn(row, pixel, on_lens, sample);
+  const Eigen::Vector2d at = drawn(row, column, on_lens, sample);
   const Eigen::Vector2d disc = 0.5 * setup_.aperture * std::sqrt(at.x()) * on_unit_circle(at.y());
   const Vec3 start(disc.x(), disc.y(), 0.0);
   return {pose_ * start, turn_ * (ray - start / setup_.focus), setup_.near, setup_.far};
@@ -283,7 +274,7 @@ void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& 
 }
 
 const Surface& PathTracer::surface_of(const Vertex& vertex, int bounce, Surface& own) const {
-  if (vertex.line == Table::line) {
+  if (vertex.line == Tabletop::line) {
     own = setup_.table->surface(vertex.position);
     if (bounce > 0) own.roughness = std::max(own.roughness, setup_.soft);
     return own;

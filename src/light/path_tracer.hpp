@@ -3,7 +3,7 @@
 /// direction of the surface's lobe is followed. The results of both methods are weighted by how likely each was to find
 /// the path (multiple importance sampling). On matte surfaces, only the points on lamps are used.
 ///
-/// From the second surface on, mirrors are at least as rough as Setup::soft. Without it the few paths that find a lamp
+/// From the second surface on, mirrors are at least as rough as Setup::soft. Otherwise the few paths that find a lamp
 /// via two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
 /// robust light transport").
 ///
@@ -18,7 +18,7 @@
 #include "light/illumination.hpp"
 #include "light/lamps.hpp"
 #include "light/lobe.hpp"
-#include "light/table.hpp"
+#include "light/tabletop.hpp"
 #include "raster/spots.hpp"
 
 #include <array>
@@ -38,7 +38,7 @@ class PathTracer {
     double focus = 1.0;            ///< m, depth that is sharp
     double soft = 0.5;             ///< least roughness of mirrors from the second surface on
     const Bevels* bevels = nullptr;
-    const Table* table = nullptr;
+    const Tabletop* table = nullptr;
     enum class By { both, lamps, lobe } by = By::both;  ///< how lamps are found; tests compare these methods
   };
   PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
@@ -62,8 +62,6 @@ class PathTracer {
   /// Mean radiance of each pixel of a row.
   /// @param grain  of the row's pixels, if given
   std::vector<Rgb> row(std::size_t row, Grain* grain = nullptr) const;
-  /// The same of some pixels of a row, in the order of `columns`; `grain` has that order as well.
-  std::vector<Rgb> row(std::size_t row, const std::vector<std::uint32_t>& columns, Grain* grain = nullptr) const;
 
  private:
   struct Vertex {
@@ -87,9 +85,9 @@ class PathTracer {
   }
   bool asks(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample >= ask_from_; }
   bool follows(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample < follow_; }
-  Eigen::Vector2d drawn(const Row& row, std::size_t pixel, int pair, std::uint32_t sample) const;
+  Eigen::Vector2d drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const;
   Eigen::Vector2d drawn(const Block& block, const Vertex& vertex, int pair) const;
-  void begin(Row& row, std::size_t index, const std::vector<std::uint32_t>& columns) const;
+  void begin(Row& row, std::size_t index) const;
   void see(Row& row) const;
   void begin(Block& block, const Row& row, std::size_t first, std::size_t count) const;
   void add_seen(Block& block) const;
@@ -101,7 +99,7 @@ class PathTracer {
   void lay_table(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
   void find_hits(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
   void find_blocked(const std::vector<Ray>& rays, std::vector<std::uint8_t>& blocked, Scenery::Rays kind) const;
-  Ray ray_of(const Row& row, std::size_t pixel, std::uint32_t sample) const;
+  Ray ray_of(const Row& row, std::size_t column, std::uint32_t sample) const;
   void add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const;
 
   const Scenery& scenery_;

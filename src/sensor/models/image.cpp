@@ -41,49 +41,17 @@ PathTracer::Setup setup_of(const Sensor& sensor, const View& view) {
   return setup;
 }
 
-/// Radiance of all pixels, row-major, and its uncertainty.
-struct Traced {
-  std::size_t width;
-  std::vector<Rgb> radiance;
-  std::vector<PathTracer::Grain> grain;
-
-  std::size_t height() const { return radiance.size() / width; }
-};
-
-Traced trace(const PathTracer& tracer, std::size_t width, std::size_t height) {
-  Traced all{width, std::vector<Rgb>(width * height), std::vector<PathTracer::Grain>(width * height)};
+/// Radiance by pixel.
+std::vector<Rgb> denoised(const PathTracer& tracer, const View& view) {
+  const auto width = static_cast<std::size_t>(view.lens.width), height = static_cast<std::size_t>(view.lens.height);
+  std::vector<Rgb> radiance(width * height);
+  std::vector<PathTracer::Grain> grain(width * height);
   in_parallel(height, [&](std::size_t row) {
-    const std::vector<Rgb> own = tracer.row(row, &all.grain[row * width]);
-    std::copy(own.begin(), own.end(), all.radiance.begin() + static_cast<std::ptrdiff_t>(row * width));
+    const std::vector<Rgb> own = tracer.row(row, &grain[row * width]);
+    std::copy(own.begin(), own.end(), radiance.begin() + static_cast<std::ptrdiff_t>(row * width));
   });
-  return all;
-}
-
-/// Mean variance of the pixels around one: that of a single pixel is known from two halves of its paths only.
-double variance_around(const Traced& image, std::size_t column, std::size_t row) {
-  constexpr std::size_t reach = 2;
-  double sum = 0.0, count = 0.0;
-  for (std::size_t y = row - std::min(row, reach); y <= std::min(row + reach, image.height() - 1); ++y) {
-    for (std::size_t x = column - std::min(column, reach); x <= std::min(column + reach, image.width - 1); ++x)
-      sum += static_cast<double>(image.grain[y * image.width + x].variance), count += 1.0;
-  }
-  return sum / count;
-}
-
-/// Traces all paths of pixels whose radiance has a larger standard error.
-void refine(const PathTracer& tracer, double error, Traced& image) {
-  const Traced coarse = image;
-  in_parallel(image.height(), [&](std::size_t row) {
-    std::vector<std::uint32_t> columns;
-    for (std::size_t x = 0; x < image.width; ++x)
-      if (variance_around(coarse, x, row) > error * error) columns.push_back(static_cast<std::uint32_t>(x));
-    std::vector<PathTracer::Grain> grain(columns.size());
-    const std::vector<Rgb> fine = tracer.row(row, columns, grain.data());
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      image.radiance[row * image.width + columns[i]] = fine[i];
-      image.grain[row * image.width + columns[i]] = grain[i];
-    }
-  });
+  denoise(view, grain, radiance);
+  return radiance;
 }
 
 }  // namespace
@@ -105,13 +73,9 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
   PathTracer::Setup setup = setup_of(sensor, view);
   std::optional<Bevels> bevels;
   if (optics.bevel > 0.0) setup.bevels = &bevels.emplace(scenery, optics.bevel);
-  const Table table(optics.table, Random(paths).of_piece(std::uint64_t{1} << 60).next());
+  const Tabletop table(optics.table, Random(paths).of_piece(std::uint64_t{1} << 60).next());
   if (table.there()) setup.table = &table;
-  const auto tracer_of = [&](int samples) {
-    setup.samples = samples;
-    return PathTracer(scenery, view.lens, view.pose, surfaces, lamps, setup, paths);
-  };
-  const PathTracer tracer = tracer_of(settings.samples);
+  const PathTracer tracer(scenery, view.lens, view.pose, surfaces, lamps, setup, paths);
   const Imager imager(sensor.imager, sensor.noise);
 
   const auto width = static_cast<std::size_t>(view.lens.width), height = static_cast<std::size_t>(view.lens.height);
@@ -144,15 +108,12 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
       out.snr[i] = static_cast<float>(mean / std::sqrt(imager.variance(mean) / static_cast<double>(channels)));
     }
   };
-  if (!settings.denoise && optics.error == 0.0) {  // no pixel needs another
+  if (settings.denoise) {
+    const std::vector<Rgb> radiance = denoised(tracer, view);
+    in_parallel(height, [&](std::size_t row) { expose(row, &radiance[row * width]); });
+  } else {
     in_parallel(height, [&](std::size_t row) { expose(row, tracer.row(row).data()); });
-    return out;
   }
-  Traced image =
-      optics.error > 0.0 ? trace(tracer_of(settings.samples / 4), width, height) : trace(tracer, width, height);
-  if (optics.error > 0.0 && gain > 0.0) refine(tracer, optics.error / gain, image);
-  if (settings.denoise) denoise(view, image.grain, image.radiance);
-  in_parallel(height, [&](std::size_t row) { expose(row, &image.radiance[row * width]); });
   return out;
 }
 

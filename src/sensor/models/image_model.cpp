@@ -9,7 +9,7 @@ namespace bin_scenes {
 
 namespace {
 
-void visit_table(KeyVisitor& v, Table::Settings& table) {
+void visit_table(KeyVisitor& v, Tabletop::Settings& table) {
   v.field({"albedo", "", "mean over the table; 0 = no table", at_least(0.0, 1.0)}, table.albedo);
   v.field({"height", "m", "z in the bin frame; a box bin ends its wall thickness below 0", at_least(-100.0, 100.0)},
           table.height);
@@ -33,11 +33,6 @@ void visit_optics(KeyVisitor& v, ImageOptics& s) {
   v.field({"reflected_roughness", "",
            "least roughness of mirrors that are seen in mirrors; lower = sharper, with more grain", at_least(0.0, 1.0)},
           s.soft);
-  v.field({"error", "",
-           "share of the full well: pixels whose standard error with a quarter of the samples is larger have all of "
-           "them; 0 = all pixels",
-           at_least(0.0, 1.0)},
-          s.error);
   v.section({"table", "", "an endless table below the bin, which pictures alone see: it has no depth and no label"},
             [&](KeyVisitor& keys) { visit_table(keys, s.table); });
 }
@@ -77,8 +72,6 @@ void check(const Sensor& sensor, const std::string& key) {
                       "give 4, 8, 16, 32, ...");
   if (s.denoise && s.samples < 4)
     throw input_error("needs at least 4 samples", key + ".image.denoise", "give more samples, or denoise: false");
-  if (sensor.settings.of<ImageOptics>().error > 0.0 && s.samples < 16)
-    throw input_error("needs at least 16 samples", key + ".image.error", "give more samples, or error: 0");
   const double paths = static_cast<double>(sensor.width) * sensor.height * s.samples;
   if (sensor.model == "image" && paths > most_paths) {
     throw input_error(std::to_string(s.samples) + " for each of " + std::to_string(sensor.width) + " x " +

@@ -1,8 +1,6 @@
-/// What makes pictures resemble photographs: depth of field, sharp reflections in reflections, bevels, the table, and
-/// samples where they are needed.
+/// What makes pictures resemble photographs: depth of field, sharp reflections in reflections, bevels, and the table.
 #include "sensor/models/image_optics.hpp"
 
-#include "bin_scenes/core/error.hpp"
 #include "sensor/models/image.hpp"
 #include "sensor/models/image_stage.hpp"
 
@@ -139,19 +137,19 @@ TEST(ImageOptics, ABevelWidensAHighlight) {
 TEST(ImageOptics, TableUnderADome) {
   Sensor sensor = camera({dome(1.0)}, 21, 1, 0.5);
   sensor.pose = Pose{Vec3(0.0, 0.0, 1.0), Quat(0.0, 1.0, 0.0, 0.0)};
-  Table::Settings settings;
+  Tabletop::Settings settings;
   settings.albedo = 0.4, settings.height = -0.2;
   Targets targets;
   targets.add(box_target({0.1, 0.1, 0.1}), Pose(), {0.0, 0.0, 0.4});
   PathTracer::Setup setup;
   setup.samples = 64, setup.bounces = 0;
-  const Table table(settings, 7);
+  const Tabletop table(settings, 7);
   setup.table = &table;
   const std::vector<double> row = by_column(targets, sensor, setup);
   EXPECT_EQ(row[10], 0.0);
   EXPECT_NEAR(row[0], 0.4, 0.03);  // the box hides a little of the dome
   settings.mottle = 0.5;
-  const Table patched(settings, 7), other(settings, 8);
+  const Tabletop patched(settings, 7), other(settings, 8);
   double sum = 0.0, square = 0.0, apart = 0.0;
   constexpr int side = 200;
   for (int i = 0; i < side * side; ++i) {
@@ -165,40 +163,6 @@ TEST(ImageOptics, TableUnderADome) {
   EXPECT_NEAR(sum / count, 0.4, 0.01);
   EXPECT_GT(std::sqrt(square / count - std::pow(sum / count, 2)), 0.03);
   EXPECT_GT(apart / count, 0.03);
-}
-
-Picture picture_of(double error, int samples) {
-  Targets targets;
-  targets.add(box_target({0.1, 0.1, 0.1}),
-              {Vec3(0.0, 0.0, 0.5), Quat(Eigen::AngleAxisd(0.4, Vec3(1, 1, 0).normalized()))}, {0.6, 0.5, 0.3});
-  ImageLamp lamp = flat(ImageLamp::Type::area, Vec3(0.5, 0.0, 0.0), Quat(Eigen::AngleAxisd(-0.7, Vec3::UnitY())));
-  Sensor sensor = camera({lamp, dome(0.2)}, 40, 30, 0.4);
-  sensor.noise = false;
-  sensor.settings.of<ImageSettings>().samples = samples;
-  sensor.settings.of<ImageSettings>().bits = 16;
-  sensor.settings.of<ImageOptics>().error = error;
-  const Scenery scenery = targets.scenery();
-  const View view = render(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
-  Picture picture;
-  take_image(scenery, view, sensor, targets.surfaces(), Random(1, 0, Stream::sensor), Random(1, 0, Stream::noise),
-             picture);
-  return picture;
-}
-
-/// A quarter of the samples where their error is small enough, all of them elsewhere.
-TEST(ImageOptics, SamplesWhereTheyAreNeeded) {
-  const Picture all = picture_of(0.0, 64), quarter = picture_of(0.0, 16);
-  ASSERT_NE(all.counts, quarter.counts);
-  EXPECT_EQ(picture_of(1e-9, 64).counts[620], all.counts[620]);
-  EXPECT_EQ(picture_of(1.0, 64).counts, quarter.counts);
-  const Picture some = picture_of(0.002, 64);
-  std::size_t as_all = 0, as_quarter = 0;
-  for (std::size_t i = 0; i < some.counts.size(); ++i) {
-    as_all += some.counts[i] == all.counts[i], as_quarter += some.counts[i] == quarter.counts[i];
-    EXPECT_TRUE(some.counts[i] == all.counts[i] || some.counts[i] == quarter.counts[i]);
-  }
-  EXPECT_GT(as_all, 50u);
-  EXPECT_GT(as_quarter, 50u);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace bin_scenes {
 
-class Table {
+class Tabletop {
  public:
   struct Settings {
     double albedo = 0.0;     ///< 0: there is no table
@@ -20,7 +20,7 @@ class Table {
   };
   static constexpr std::int32_t line = -2;  ///< Hit::line of the table
 
-  Table(const Settings& settings, std::uint64_t key) : settings_(settings), key_(key) {}
+  Tabletop(const Settings& settings, std::uint64_t key) : settings_(settings), key_(key) {}
   bool there() const { return settings_.albedo > 0.0; }
   /// Replaces the hit of a ray if the table is nearer. @param nothing  hit of a ray that meets nothing
   void cover(const Ray& ray, const Hit& nothing, Hit& hit) const;

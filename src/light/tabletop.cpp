@@ -1,4 +1,4 @@
-#include "light/table.hpp"
+#include "light/tabletop.hpp"
 
 #include "bin_scenes/core/random.hpp"
 
@@ -30,7 +30,7 @@ double distance_to_table(const Ray& ray, double height) {
 
 }  // namespace
 
-void Table::cover(const Ray& ray, const Hit& nothing, Hit& hit) const {
+void Tabletop::cover(const Ray& ray, const Hit& nothing, Hit& hit) const {
   const double distance = distance_to_table(ray, settings_.height);
   if (!there() || !(distance >= ray.near && distance <= ray.far) || distance >= hit.distance) return;
   hit = nothing;
@@ -39,12 +39,12 @@ void Table::cover(const Ray& ray, const Hit& nothing, Hit& hit) const {
   hit.line = line;
 }
 
-bool Table::blocks(const Ray& ray) const {
+bool Tabletop::blocks(const Ray& ray) const {
   const double distance = distance_to_table(ray, settings_.height);
   return there() && distance >= ray.near && distance <= ray.far;
 }
 
-Surface Table::surface(const Vec3& point) const {
+Surface Tabletop::surface(const Vec3& point) const {
   Surface surface;
   surface.albedo = settings_.albedo;
   surface.gloss = settings_.gloss;
