@@ -177,6 +177,10 @@ GraspJson found_json(const SceneGrasps::Found& found, const Request& request) {
 
 }  // namespace
 
+std::string gripper_text(const Gripper& gripper) {
+  return gripper_json(gripper).dump();
+}
+
 std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request) {
   GraspJson rest = {{"removal_order", grasps.removal_order}, {"held_sets", held_json(grasps.held_sets)}};
   rest["blocked_by"] = GraspJson::object();

@@ -2,6 +2,7 @@
 #include "grasp_message.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "grasp/gripper_shape.hpp"
 
 #include <algorithm>
 
@@ -60,12 +61,13 @@ class GripperMarkers {
     next_.color.r = static_cast<float>(1.0 - grasp.score);
     next_.color.g = static_cast<float>(grasp.score);
     next_.color.a = 1.0f;
-    const double tip = g.type == Gripper::Type::parallel ? 0.5 * g.pad_length : 0.0;
     if (g.type == Gripper::Type::parallel) {
-      for (const double side : {-0.5, 0.5})
-        body(GraspMarker::CUBE, grasp.pose,
-             Vec3(side * (g.between_fingers(grasp.aperture()) + g.finger_thickness), 0.0, tip - 0.5 * g.finger_depth),
-             Vec3(g.finger_thickness, g.finger_width, g.finger_depth));
+      const double inner_face = 0.5 * g.between_fingers(grasp.aperture());
+      for (const Aabb& box : finger_of(g))
+        for (const double side : {-1.0, 1.0}) {
+          const Vec3 center = box.center() + Vec3(inner_face, 0.0, 0.0);
+          body(GraspMarker::CUBE, grasp.pose, Vec3(side * center.x(), side * center.y(), center.z()), box.size());
+        }
     } else {
       body(GraspMarker::CYLINDER, grasp.pose, Vec3(0.0, 0.0, -0.5 * g.radius),
            Vec3(2.0 * g.radius, 2.0 * g.radius, g.radius));
@@ -99,6 +101,7 @@ void add_part(bin_scenes_msgs::GetGrasps::Response& response, const PartPick& pi
   response.pulls.push_back(pick.pull);
   response.depths.push_back(pick.depth);
   response.lifts.push_back(vector_message(pick.lift));
+  response.tilted.push_back(static_cast<int>(pick.tilted));
   response.slight.push_back(pick.slight);
   response.overlap_areas.push_back(pick.overlap.area);
   response.overlap_shares.push_back(pick.overlap.share);
@@ -109,6 +112,24 @@ void add_part(bin_scenes_msgs::GetGrasps::Response& response, const PartPick& pi
     response.blocked_by.push_back(pick.blocked_by[i]);
     response.blocked_areas.push_back(pick.blocked_areas.at(i));
   }
+}
+
+/// @param place  of the grasp in the answer
+void add_proof(bin_scenes_msgs::GetGrasps::Response& response, int place, const LiftProof& proof) {
+  const auto add = [&](const std::vector<int>& ids, bool dragged) {
+    for (const int id : ids) {
+      if (!dragged && std::find(proof.dragged.begin(), proof.dragged.end(), id) != proof.dragged.end()) continue;
+      response.disturbed_by.push_back(static_cast<int>(response.proved.size()));
+      response.disturbed_ids.push_back(id);
+      response.disturbed_dragged.push_back(dragged);
+    }
+  };
+  add(proof.dragged, true);
+  add(proof.moved, false);
+  response.proved.push_back(place);
+  response.proof_outcomes.emplace_back(name_of(proof.outcome));
+  response.proof_slips.push_back(proof.slip);
+  response.proof_turns.push_back(proof.turn);
 }
 
 void add_search(bin_scenes_msgs::GetGrasps::Response& response, int part, const PartSearch& search,
@@ -176,6 +197,7 @@ void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<Scen
     response.frictions.push_back(grasp.friction);
     response.free.push_back(grasp.free());
     response.reasons.push_back(reason_of(grasp, *pick_of(all, grasp.part)));
+    if (grasp.proof) add_proof(response, static_cast<int>(response.parts.size()) - 1, *grasp.proof);
   }
   for_each_column(GraspColumns(), [&](const char* name, double) { response.columns.emplace_back(name); });
   response.flanges.header = response.poses.header;

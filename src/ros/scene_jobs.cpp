@@ -4,6 +4,7 @@
 
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "grasp_message.hpp"
 #include "request_message.hpp"
 
@@ -106,14 +107,17 @@ std::shared_ptr<Job> SceneJobs::grasps(const bin_scenes_msgs::GetGrasps::Request
   const auto work = [this, request, answered](Job& job) {
     MadeScene made = maker_->heap_as_it_lies("get_grasps");
     if (request.render) publication_.render(made, true, job.hooks());
-    const SceneGrasps grasps =
-        maker_->grasps(made, request.render ? made.images : std::vector<RangeImage>(), job.hooks());
-    const std::vector<SceneGrasp> chosen = chosen_grasps(grasps, request);
+    SceneGrasps grasps = maker_->grasps(made, request.render ? made.images : std::vector<RangeImage>(), job.hooks());
+    grasps.grasps = chosen_grasps(grasps, request);
+    if (request.prove > 0)
+      maker_->prove(grasps, made, static_cast<std::size_t>(request.prove), request.all, job.hooks());
     job.commit();
     const ros::Time stamp = publication_.stamp();  // of now: it changes with publish_rate and the clock
-    fill(answered->response, chosen, grasps, made.loaded.request, settings_.frames, stamp);
-    if (request.render) fill_shares(answered->response, chosen, made.scene.sensors);
-    answered->markers = grasp_markers(chosen, made.loaded.request, settings_.frames, stamp);
+    fill(answered->response, grasps.grasps, grasps, made.loaded.request, settings_.frames, stamp);
+    for (const Gripper& gripper : made.loaded.request.grippers)
+      answered->response.gripper_descriptions.push_back(gripper_text(gripper));
+    if (request.render) fill_shares(answered->response, grasps.grasps, made.scene.sensors);
+    answered->markers = grasp_markers(grasps.grasps, made.loaded.request, settings_.frames, stamp);
     Outcome outcome;
     outcome.success = true;
     return outcome;

@@ -80,6 +80,13 @@ SceneGrasps SceneMaker::grasps(const MadeScene& made, const std::vector<RangeIma
   return grasper_.find(made.scene, made.loaded, images);
 }
 
+void SceneMaker::prove(SceneGrasps& grasps, MadeScene& made, std::size_t count, bool all, const RunHooks& hooks) {
+  const CancelScope scope(hooks.cancel);
+  made.loaded.request.prove = count;
+  made.loaded.request.prove_all = all;
+  prove_grasps(grasps, made.scene, made.loaded, prover_.of(made.loaded, heap_->solver()));
+}
+
 MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, const RunHooks& hooks) {
   heap->settle(hooks);
   Generator::Options options;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
+#include "generate/proving.hpp"
 
 #include <memory>
 #include <vector>
@@ -42,6 +43,9 @@ class SceneMaker {
   MadeScene heap_as_it_lies(const char* purpose) const;
   /// What cameras see of them only if `images` are those of the scene.
   SceneGrasps grasps(const MadeScene& made, const std::vector<RangeImage>& images, const RunHooks& hooks) const;
+  /// Simulates the lift of up to `count` of these grasps, which are those of heap_as_it_lies(); with `all`, also of
+  /// blocked parts and of those that would slip.
+  void prove(SceneGrasps& grasps, MadeScene& made, std::size_t count, bool all, const RunHooks& hooks);
   /// The empty bin of the scene that is kept.
   MadeScene emptied() const;
 
@@ -55,6 +59,7 @@ class SceneMaker {
 
   Generator generator_;
   Grasper grasper_;
+  HeapProver prover_;
   std::shared_ptr<Heap> heap_;
   bool has_scene_ = false;
   LoadedRequest loaded_;  ///< the request of the stored scene

@@ -2,6 +2,7 @@
 """pick_part, add_parts, next_scene, clear_scene: what lies in the bin changes, and the topics with it."""
 
 import copy
+import json
 import math
 import os
 import sys
@@ -78,6 +79,17 @@ class HeapTest(NodeTestCase):
         self.assertEqual(set(every.parts), {told.parts[0]})
         self.assertTrue(all(free == (reason == "") for free, reason in zip(every.free, every.reasons)))
         self.check_fields_of_parts(every, grippers=["cup_10mm", "two"])
+        self.assertEqual([json.loads(text)["name"] for text in every.gripper_descriptions], ["cup_10mm", "two"])
+        self.assertEqual(len(every.tilted), len(every.part_ids))
+        self.assertEqual((len(told.proved), len(told.disturbed_ids)), (0, 0))
+        proved = self.doors.grasps(ids=[told.parts[0]], prove=3)
+        self.assertEqual(len(proved.proved), min(3, len(proved.parts)))
+        self.assertEqual(proved.proof_outcomes[0], "lifted")  # of the best grasp
+        self.assertTrue(set(proved.proof_outcomes) <= {"lifted", "missed", "slipped", "jammed", "dragged"})
+        self.assertEqual(proved.proved[0], 0)
+        for values in (proved.proof_slips, proved.proof_turns):
+            self.assertTrue(len(values) == len(proved.proved) and all(value >= 0 for value in values))
+        self.assertEqual(len(proved.disturbed_by), len(proved.disturbed_dragged))
         # What it tells can be done: the part leaves, and its grasps with it.
         self.picked([told.parts[0]], lift_distance=0.1)
         refused = self.doors.grasps(ids=[told.parts[0]])

@@ -31,6 +31,9 @@ SceneFile scene_file(const Scene& scene, const LoadedRequest& loaded, const std:
 /// Returns the text of grasps.json (format "bin_scenes/grasps/1", docs/use/outputs.md).
 std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request);
 
+/// Returns the entry of a gripper in that file, in one line.
+std::string gripper_text(const Gripper& gripper);
+
 /// Returns the contents of a numpy file (float32) with the free grasps of one gripper, in the frame of the sensor.
 /// Grasps of two fingers have 17 columns for graspnetAPI's GraspGroup, and grasps from inside a hole are omitted
 /// because that format cannot represent them. Grasps of a cup have 8 columns for suctionnetAPI's SuctionGroup.
