@@ -14,8 +14,8 @@ vec3 rotate(vec4 q, vec3 v) {
 vec3 symmetric_times(vec3 diagonal, vec3 mixed, vec3 v) {
   return diagonal * v + vec3(mixed.x, mixed.x, mixed.y) * v.yxx + vec3(mixed.y, mixed.z, mixed.z) * v.zzy;
 }
-// Rotation by the vector `turn` (rad). Series up to half a radian of half angle: built-in sin and cos are only good to
-// 5e-7 absolute on some hardware, which is 1 part in 10^4 of a slow part's turn per step.
+// Rotation by the vector `turn` (rad). Half angles of up to 0.5 rad use the power series: on some hardware, sin and cos
+// have an absolute error of 5e-7, which is 1e-4 of the angle by which a slow part turns in a step.
 vec4 quat_of_turn(vec3 turn) {
   vec3 h = 0.5 * turn;
   float x2 = dot(h, h);

@@ -59,7 +59,7 @@
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // largest number of clusters of a part at one resolution
-#define SPHERE_CHAINS 14            // number of chains of a job's candidates; one invocation walks each chain
+#define SPHERE_CHAINS 14            // a job's candidates form so many linked lists, each of which one invocation reads
 
 #define SPHERE_NO_COLOR 0xffffffffu  // color of a pair without contacts to solve
 
@@ -74,7 +74,7 @@
 
 // A row is the data of one contact in three vec4: normal and effective mass along it (kg); lever arm of a and effective
 // mass along the tangents; lever arm of b and the gap (m) when the contact was found. The impulses of a contact are
-// two-component vectors at the same position of a separate buffer, so that sweeps only read rows: normal impulse and
+// three vec2 at the same position of a separate buffer, so that rows are not written during sweeps: normal impulse and
 // gap (m); friction along x and y; friction along z and the normal impulse with which the sub-step started. The last
 // value is negative (-0 for 0) if the contact has pressed in this step.
 #define SPHERE_ROW_PARTS 3u
@@ -215,8 +215,8 @@ struct SphereWatched {
                              // energies are known
 };
 
-// The largest gains of energy since their observation started (EnergyReport and WorldEnergy). Observations are numbers,
-// and 0 means none.
+// The largest gains of energy since their observation started (EnergyReport and WorldEnergy). Observations are
+// counted from 1; 0 means that there is no observation.
 struct SphereAudit {
   float gain;       // in units of m g d (mass, gravity, diagonal)
   uint gainer, gain_observation;

@@ -115,7 +115,7 @@ struct ThesisRange {  // the contacts of a sphere
 struct ThesisContact {
   vec4 normal;   // unit, from the other towards this sphere; w: depth
   vec4 arm;      // contact point from this body's centre of mass; w: friction of the pair
-  uvec4 other;   // sphere or node, body or sheet key, contacts between the two bodies (k)
+  uvec4 other;   // x: the other sphere or node; y: key of its body or sheet; z: number of contacts of the two bodies
   vec4 impulse;  // kg m/s on this body, of this iteration
   vec4 total;    // of all iterations; w: speed of separation to reach (m/s)
 };

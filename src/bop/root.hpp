@@ -41,8 +41,8 @@ void write_bop_root(const BopFolder& folder);
 /// of Python, each below a comment that says where. Throws an input Error for a folder that is not finished.
 std::string toolkit_entry(const BopFolder& folder, const std::string& name);
 
-/// A warning where target images have more visible parts than bop_toolkit keeps estimates of (twice as many of the data
-/// set xyzibd); empty: there are none.
+/// Returns a warning if a target image has more visible parts than bop_toolkit keeps estimates of an image (100, and
+/// 200 for the data set xyzibd). The text is empty if there is no such image.
 std::string crowded_targets(const BopFolder& folder, const std::string& name = "");
 
 }  // namespace bin_scenes

@@ -134,7 +134,7 @@ inline void was_there(DriftReport& drift) {
 
 class JsonReader {
  public:
-  /// @param strict  whether every key that would be written has to be there, or only those that are needed
+  /// @param strict  true: every key that the writer writes must be there; false: only those without a default
   JsonReader(const Json& json, std::string path, bool strict) : json_(json), path_(std::move(path)), strict_(strict) {
     expect_map(json, path_);
   }

@@ -14,8 +14,8 @@ namespace bin_scenes::config {
 
 /// @param root  is changed by the overrides
 /// @param file, base  for messages, and what relative paths start at
-/// @param all  takes the errors of all keys, with their lines; the request then says nothing. Other errors are thrown,
-///             and without it those of keys, too.
+/// @param all  takes the errors of all keys, with their lines; the request is then not usable. Without it, the first
+///             error of a key is thrown; errors of other kinds are always thrown.
 Request read_document(YAML::Node root, const std::string& file, const std::string& base,
                       const std::vector<Override>& overrides, const PathRules& rules,
                       std::vector<Error>* all = nullptr);

@@ -71,7 +71,7 @@ class Lamps {
   };
   /// m along a ray of unit direction to where it meets the lamp's front; NaN: it does not.
   static double distance_to(const Flat& flat, const Vec3& origin, const Vec3& direction);
-  /// With the share of samples that choose it.
+  /// @param share  of all samples that choose this lamp
   void sample_one(std::size_t lamp, double share, const Vec3& from, double u, double v, Sample& out) const;
   void sample_flat(const Flat& flat, double share, const Vec3& from, double u, double v, Sample& out) const;
   static void sample_beam(const Beam& beam, double share, const Vec3& from, Sample& out);

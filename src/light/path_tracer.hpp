@@ -49,7 +49,7 @@ class PathTracer {
   struct Side {
     Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = point;  ///< bin frame, m
     std::uint16_t label = 0;
-    float share = 0.0f;  ///< share of the paths
+    float share = 0.0f;  ///< share of all paths that end in this group
     /// Whether another point is of it. @param off  m, so far it may lie from the plane of this one
     bool takes(const Eigen::Vector3f& other, const Eigen::Vector3f& its_normal, std::uint16_t of, float off) const;
   };

@@ -20,7 +20,7 @@ class SheetGlow {
  public:
   struct Camera {
     Lens lens;
-    bool upright;  ///< the line runs along the image's columns: a sample is a row
+    bool upright;  ///< the line is vertical in the image, with one sample for each row
     double near, far;
     double blur;   ///< pixel, standard deviation of the lens's blur
     double sheet;  ///< m, standard deviation across the sheet

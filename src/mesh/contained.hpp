@@ -15,7 +15,7 @@ struct Contained {
 };
 
 struct ContainedLimits {
-  unsigned cpu_seconds = 60;  ///< processor time, so that a busy machine does not change what can be read
+  unsigned cpu_seconds = 60;  ///< limit on processor time, which a busy machine does not change as it changes wall time
   std::size_t bytes = std::size_t{4} << 30;  ///< memory beside what the parent has
 };
 

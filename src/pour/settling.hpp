@@ -116,7 +116,7 @@ class Settling {
 
   Pour::Finish finish_;
   bool ignored_ = false;                            ///< the solver has no stages
-  Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: before it was done
+  Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: the stage before `done`
   double begun_ = 0.0;                              ///< s: start of the stage
   double advanced_ = 0.0;                           ///< s: the last advance()
   int checks_ = 0;                                  ///< times that probe or verify began

@@ -33,7 +33,7 @@ class Session {
   /// Does a job and waits for its end. Throws what the job throws, and an input Error at `caller` ("Heap.settle") if
   /// the session is closed, or busy with another job.
   void run(const std::string& caller, const Job& job, const Poll& poll);
-  /// Starts a job, which throws nothing, and returns its number. Refused as run().
+  /// Starts a job, which must not throw, and returns its number. Throws like run() if the session refuses it.
   std::size_t start(const std::string& caller, Job job);
   /// Until `until()` or the end of that job. Throws what poll throws, after the job was cancelled and has ended.
   void wait(std::size_t job, const std::function<bool()>& until, const Poll& poll);

@@ -53,8 +53,8 @@ struct Separation {
 
 /// Penetration depth of two convex cells: the nearest face of their Minkowski difference, found among the faces of
 /// either and the pairs of edges whose normal arcs cross (Gregorius 2013, "The separating axis test between convex
-/// polyhedra"). `common` lies in both, up to `slack`: the distance of a feature's plane from it bounds the depth from
-/// below, which leaves most features out. Returns early with some depth <= `enough` as soon as it is known to be so.
+/// polyhedra"). `common` lies in both, up to `slack`: the depth along a feature's normal is at least the distance from
+/// it to its plane, so that most features need no test. Returns early with some depth <= `enough` once it is known.
 Separation separation(const ConvexCell& a, const ConvexCell& b, const Vec3& common, double slack, double enough);
 
 }  // namespace bin_scenes

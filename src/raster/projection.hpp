@@ -42,7 +42,7 @@ class Projection {
   void sort_into_bands(Body& body) const;
 
   Lens lens_;
-  double nearest_, farthest_;  // 1 / depth
+  double nearest_, farthest_;  // inverse depths (1/m) of the lens's near and far limit
   double reach_;
 };
 

@@ -15,7 +15,7 @@ namespace bin_scenes {
 /// Writes one scene in the layout of the BOP challenge (github.com/thodan/bop_toolkit, docs/bop_datasets_format.md).
 /// Each camera is an image of the scene; lengths are in mm; depth is in counts of depth_scale. The files are depth/,
 /// gray/, mask/, mask_visib/, scene_gt.json, scene_gt_info.json and scene_camera.json.
-/// @param parts  the models, by part line
+/// @param parts  one model for each entry of the request's list `parts`
 ///
 /// BOP numbers masks by the position of the entry in scene_gt; here the number is the part's id. An entry carries its
 /// `id` and is at the position of that number if possible. If parts were not poured, the last entries take the free

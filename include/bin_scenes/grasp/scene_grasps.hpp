@@ -19,7 +19,7 @@ namespace bin_scenes {
 /// are in 0..1.
 struct GraspColumns {
   double safety = 0.0;     ///< factor by which the load of the lift could grow before the part slips or turns
-  double sliding = 0.0;    ///< factor by which it could grow before the part slides out, even if it turns before
+  double sliding = 0.0;    ///< the same before the part slides out of the gripper; rotation is allowed
   double antipodal = 0.0;  ///< fingers: 1 - friction needed at the contacts / friction; cup: 1 - gap / lip
   double moment = 0.0;     ///< 1 - sqrt(moment of the weight about the contact / moment that the grasp can hold)
   double overlap = 0.0;    ///< fingers: 1 - exp(-(share of the pad in contact) / 0.05); cup: margin / (radius / 2)

@@ -84,8 +84,8 @@ INLINE Mask slips(Real most, Real f1, Real f2) {
 
 // The rule that distinguishes an impact from a lasting force. In one sub-step, a force may grow by half, and in
 // addition by the impulse that stops impact_speed(). An impulse beyond that belongs to an impact, which is over, so
-// that the next sub-step does not start with it. Otherwise, a few sweeps could not remove it from a heap, which would
-// be thrown up.
+// that the next sub-step does not start with it. Otherwise, a few sweeps could not remove all of it from a heap,
+// and the rest would throw parts upwards.
 const float FORCE_GROWTH = 1.5f;  // with a larger value, heaps rebound; with a smaller one, the loads of a deep heap
                                   // are found later
 

@@ -188,8 +188,8 @@ struct Exit {
   vec3 away;
   float distance;
   uint number;  // number among the exits that press at one point
-  uint kind;    // the normal of a face; a direction to an edge, which may be tilted; or the gradient of the field,
-                // which may be either
+  uint kind;    // what gives the direction: the normal of a face, the direction to an edge (which may deviate from the
+                // normals of its faces), or the gradient of the field (which may point to a face or to an edge)
 };
 
 INLINE Exit exit_of(uint kind, IN(vec3) away, float distance) {
@@ -295,7 +295,7 @@ INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   found.faces.count = 0u;
   found.nearest = field.cell;
   found.outside = exit_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
-  vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // the nearest end of the edges that the point is past
+  vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // nearest corner of edges that the point lies beyond the ends of
   Range list = edges_near(other, field, point);
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));

@@ -1,6 +1,6 @@
-// The distance field of a part: trilinear interpolation on a grid, or the closed form of a ball. The includer defines
-// before: Field (cell, padding, ball); and afterwards: sample_field(field, point) and sample_field(field, point,
-// gradient), by means of cell_at().
+// The distance field of a part: trilinear interpolation on a grid, or the closed form of a ball. Whoever includes
+// this file defines the struct Field (cell, padding, ball) before it. After it, they define cell_at(), which reads the
+// grid, and the functions sample_field(field, point) and sample_field(field, point, gradient), which call cell_at().
 
 // The cell of the grid that contains a point: values at its corners (m; x fastest, then y, then z), the position of the
 // point in the cell (0 to 1), and the distance (m) from the grid if the point is outside it.

@@ -165,8 +165,8 @@ INLINE bool finds_exit_back(IN(View) view, IN(Touch) at, IN(Cone) cone, OUT(Exit
 }
 
 // Emits a contact for the first exit that fits; in a crease, for each wall that fits. Near a sharp edge the exits are
-// exact, so that a sample whose normal cone fits none of them does not press there. (An exit past an edge that was
-// rotated into the cone held up parts that leant against the edge from the side.) If no exact exit ends outside, the
+// exact, so that a sample whose normal cone fits none of them does not press there. (When such directions
+// were rotated into the cone, an edge held up parts that leant against it sideways.) If no exact exit ends outside, the
 // exit of the field is used, or otherwise the one that finds_exit_back() returns. All of this is one loop, because
 // shader compilers expand every call in place.
 INLINE void offer_exits(IN(View) view, IN(Touch) at, IN(Exits) exits, bool creased, IN(Cone) cone, uint feature) {
@@ -177,8 +177,8 @@ INLINE void offer_exits(IN(View) view, IN(Touch) at, IN(Exits) exits, bool creas
     Exit exit = exit_of(BY_THE_FIELD, at.gradient, at.distance);
     if (exact) {
       exit = EXIT(exits, i);
-      // Half a cell beyond the exit is outside, unless this is a seam between shells that touch. A crease is no seam,
-      // but it may be narrow.
+      // The point half a cell beyond an exit is outside, unless the exit is on a seam between shells that touch. A
+      // crease is no seam, but it may be narrow.
       vec3 beyond = at.point + (0.5f * view.field.cell - exit.distance) * exit.away;
       if (!creased && sample_field(view.field, beyond) < 0.3f * view.field.cell) continue;
       out_there = true;

@@ -20,8 +20,8 @@ void filter_spatially(const SpatialFilter& settings, int width, int height, std:
 double spatially_filtered_noise(const SpatialFilter& settings, double window);
 
 /// The temporal filter of librealsense: a pixel becomes alpha of itself and 1 - alpha of its last result if both differ
-/// by less than delta; otherwise it starts again. Where a pixel is missing, its last result replaces it if the images
-/// before satisfy the persistence.
+/// by less than delta; otherwise it starts again. A missing pixel takes its last result if it was
+/// valid in as many of the previous images as `persistence` demands.
 class TemporalAverage {
  public:
   explicit TemporalAverage(const TemporalFilter& settings) : settings_(settings) {}

@@ -18,7 +18,7 @@ class Fringes {
   static Fringes without_code(StructuredLightSettings settings, double period, int width);
 
   int images() const { return steps_ + bits_; }
-  /// Adds weight * light (0 dark, 1 the projector's white) of every image at a column, blurred by pixel and lens.
+  /// Adds to images[i] weight times the light of pattern i at a column (0 dark to 1 white), blurred by pixel and lens.
   void add_light(double column, double weight, float* images) const;
   /// Adds light that is constant over `spread` columns.
   void add_even_light(double column, double spread, double weight, float* images) const;

@@ -120,9 +120,9 @@ class LaserLine {
   Setup setup_;
   Imager imager_;
   Random rays_;
-  bool upright_;  ///< the line runs along the image's columns: a sample is a row
+  bool upright_;  ///< the line is vertical in the image, with one sample for each row
   int samples_;
-  std::vector<Vec3> directions_;  ///< directions of the fan, bin frame
+  std::vector<Vec3> directions_;  ///< unit directions of the laser's fan of rays, bin frame
   Mat3 to_camera_;                ///< from the bin frame
   Vec3 sheet_;                    ///< normal, bin frame
   double reference_ = 1.0;        ///< m from the laser

@@ -135,7 +135,7 @@ class StructuredLight {
   // The light on the surface that the centre of each pixel sees, row-major.
   std::vector<Validity> codes_;  ///< valid, nothing, shadow or outside
   std::vector<double> columns_;  ///< column of the projector
-  std::vector<double> whites_;   ///< reflected / distance^2
+  std::vector<double> whites_;   ///< reflected share / squared distance to the projector (1/m2)
   std::vector<double> planes_;   ///< Pixel::plane
   std::vector<double> worn_;     ///< share of ambient light sent back; empty: no surface has a texture
   std::vector<double> scales_;   ///< exposures / ImagerSettings::exposure, the longest first

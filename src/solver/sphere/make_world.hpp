@@ -29,8 +29,8 @@ void place(World& world, std::size_t body, const BodyState& state);
 void set_jaws(World& world, const Jaws& jaws);
 void set_force(World& world, std::size_t body, const Vec3& force, const Vec3& point);
 
-/// Samples, contacts and sleep of a phase. Says whether that is a change, or contacts forget their forces, or bodies
-/// are to sleep; bodies and contacts are left to the caller.
+/// Takes over the samples, contact settings and sleep of a phase. Returns true if these differ from before, or if the
+/// contacts are to forget their forces, or bodies are to sleep: the caller must then change bodies and contacts.
 bool take_phase(World& world, const Phase& phase);
 
 /// The same; a change wakes all bodies, or puts them to sleep.

@@ -52,7 +52,7 @@ class Batch {
   /// Data of the watch that are uploaded with the state of a body.
   struct Mark {
     bool enters = false;  ///< its energy begins with this state
-    gpu::uint moved = 0;  ///< WatchedBody::moved
+    gpu::uint moved = 0;  ///< what WatchedBody::moved becomes
   };
 
   explicit Batch(const Capacity& capacity = {});
@@ -81,7 +81,7 @@ class Batch {
 
   /// Room for more pairs of a world that had too little, and for their contacts, from its progress; contents are kept.
   void grow_pairs(Slot slot, gpu::SphereProgress& progress);
-  /// Room for `need` rows of the solve; their contents are of one step, and lost.
+  /// Makes room for `need` rows of the solve. Their contents are lost, because rows are valid within one step only.
   void grow_rows(Slot slot, std::size_t need);
   /// Room for so many samples near another body, and candidates, or for as many as there may be at once: of more than
   /// that, repeated steps find the contacts.

@@ -61,7 +61,7 @@ class Team {
   // The ticket: number of the loop, and below it how much of the loop is not claimed yet.
   static constexpr std::uint64_t next_loop = std::uint64_t{1} << 32;
 
-  /// Does a piece of the loop, if one is left. The description of the loop does not change until the piece is done.
+  /// Does a piece of the loop, if one is left. The loop's function and range stay as they are until the piece is done.
   bool claim() {
     std::uint64_t ticket = ticket_.load(std::memory_order_acquire);
     while (const auto left = static_cast<std::uint32_t>(ticket)) {
