@@ -26,6 +26,7 @@ constexpr double most_overlap = 0.02;  ///< / smaller diagonal: overlap of parts
 constexpr double side_play = 1e-3;     ///< / smaller diagonal: sideways play of a part in a gripper
 constexpr double cone_step = 0.18;     ///< rad between the tilts of lifts that are tried
 constexpr int cone_directions = 8;     ///< directions of lifts that are tried at each tilt
+constexpr std::size_t together = 2;    ///< largest number of parts that are lifted together: one gripper holds them all
 
 /// Forces that act on one part.
 struct Acting {
@@ -237,7 +238,7 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
 
 namespace {
 
-/// Removes parts one after another, or as sets that block each other.
+/// Removes parts one after another; those that block each other in pairs, or the least covered one first.
 class Remover {
  public:
   Remover(std::vector<PartPick>& picks, const PlacedParts& placed) {
@@ -250,9 +251,11 @@ class Remover {
       if (PartPick* next = highest_free()) {
         remove({next->id});
       } else if (const std::set<int> held = smallest_held(); !held.empty()) {
-        const std::vector<int> ids = by_height(held);
-        sets.push_back(set_of(ids));
-        remove(ids);
+        sets.push_back(set_of(by_height(held)));
+        if (held.size() <= together)
+          remove(sets.back().ids);
+        else
+          unravel(sets.back());
       } else {
         std::set<int> rest;  // parts below something fixed, and those that they block
         for (const auto& [id, pick] : left_) rest.insert(id);
@@ -272,6 +275,35 @@ class Remover {
       if (!best || height_.at(id) > height_.at(best->id)) best = pick;
     }
     return best;
+  }
+
+  /// m2 of it that parts cover which are still there.
+  double covered(const PartPick& pick) const {
+    double area = 0.0;
+    for (std::size_t i = 0; i < pick.blocked_by.size(); ++i)
+      if (left_.count(pick.blocked_by[i])) area += pick.blocked_areas.at(i);
+    return area;
+  }
+
+  /// Removes a set part by part: the highest of those that are free, or if there is none the one that is covered least.
+  void unravel(SceneGrasps::HeldSet& held) {
+    std::vector<int> rest;
+    rest.swap(held.ids);
+    while (!rest.empty()) {
+      const auto is_free = [&](int id) {
+        const std::vector<int>& blocking = left_.at(id)->blocked_by;
+        return std::none_of(blocking.begin(), blocking.end(), [&](int other) { return left_.count(other) != 0; });
+      };
+      auto next = std::find_if(rest.begin(), rest.end(), is_free);
+      if (next == rest.end()) {
+        next = std::min_element(rest.begin(), rest.end(),
+                                [&](int a, int b) { return covered(*left_.at(a)) < covered(*left_.at(b)); });
+        held.forced.push_back({*next, covered(*left_.at(*next))});
+      }
+      held.ids.push_back(*next);
+      remove({*next});
+      rest.erase(next);
+    }
   }
 
   /// All parts that have to be removed before or together with a part; empty if one of them is fixed.
@@ -307,7 +339,8 @@ class Remover {
   }
 
   SceneGrasps::HeldSet set_of(const std::vector<int>& ids) const {
-    SceneGrasps::HeldSet held{ids, -1, -1, 0.0};
+    SceneGrasps::HeldSet held;
+    held.ids = ids;
     for (const int id : ids) {
       const PartPick& pick = *left_.at(id);
       for (std::size_t i = 0; i < pick.blocked_by.size(); ++i) {

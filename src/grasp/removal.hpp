@@ -9,8 +9,8 @@ namespace bin_scenes {
 /// Load, pull, lift, blocking parts and overlaps of all movable parts; their depth is not filled in.
 std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, const PlacedParts& placed);
 
-/// Fills in the depths, and returns the order of removal of all parts and the sets of parts that have to be lifted
-/// together. A set is as small as possible: each of its parts is blocked, directly or through others, by all of them.
+/// Fills in the depths, and returns the order of removal of all parts and the sets of parts that block each other. A
+/// set is as small as possible: each of its parts is blocked, directly or through others, by all of them.
 std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed,
                                std::vector<SceneGrasps::HeldSet>& sets);
 

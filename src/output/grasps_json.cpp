@@ -151,9 +151,13 @@ GraspJson overlap_json(const PartPick& pick) {
 
 GraspJson held_json(const std::vector<SceneGrasps::HeldSet>& sets) {
   GraspJson all = GraspJson::array();
-  for (const SceneGrasps::HeldSet& held : sets)
-    all.push_back(
-        {{"parts", held.ids}, {"least_overlap", {{"part", held.part}, {"by", held.by}, {"area", held.overlap}}}});
+  for (const SceneGrasps::HeldSet& held : sets) {
+    GraspJson forced = GraspJson::array();
+    for (const SceneGrasps::Forced& lift : held.forced) forced.push_back({{"part", lift.part}, {"area", lift.overlap}});
+    all.push_back({{"parts", held.ids},
+                   {"least_overlap", {{"part", held.part}, {"by", held.by}, {"area", held.overlap}}},
+                   {"forced", std::move(forced)}});
+  }
   return all;
 }
 

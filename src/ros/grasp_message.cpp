@@ -148,11 +148,16 @@ void add_scene(bin_scenes_msgs::GetGrasps::Response& response, const SceneGrasps
     add_part(response, pick);
     for (const PartSearch& search : pick.searches) add_search(response, pick.id, search, request);
   }
-  for (std::size_t set = 0; set < all.held_sets.size(); ++set)
+  for (std::size_t set = 0; set < all.held_sets.size(); ++set) {
     for (const int id : all.held_sets[set].ids) {
       response.held_ids.push_back(id);
       response.held_sets.push_back(static_cast<int>(set));
     }
+    for (const SceneGrasps::Forced& lift : all.held_sets[set].forced) {
+      response.forced_ids.push_back(lift.part);
+      response.forced_areas.push_back(lift.overlap);
+    }
+  }
   for (const SceneGrasps::Found& found : all.found) {
     response.model_lines.push_back(static_cast<int>(found.line));
     response.model_grippers.push_back(request.grippers[found.gripper].name);

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 namespace bin_scenes {
 namespace {
 
@@ -76,6 +79,40 @@ TEST(SceneGrasps, HookedPartsLeaveTogether) {
   EXPECT_EQ(pick_of(found, 3).depth, 1);
   EXPECT_EQ(pick_of(found, 0).blocked_by, (std::vector<int>{1}));
   EXPECT_EQ(pick_of(found, 1).blocked_by, (std::vector<int>{0}));
+}
+
+TEST(SceneGrasps, ChainsOfManyLinksAreTakenApartWhereTheyCoverEachOtherLeast) {
+  // Five upright links; each one passes through the next, which is turned by a quarter. The last one passes less
+  // deeply.
+  Stage stage({two_fingers()});
+  const std::size_t ring = stage.add(test::torus_mesh(0.02, 0.004, 40, 16));
+  for (int i = 0; i < 5; ++i)
+    stage.put(ring, {0.025 * i, 0, 0.03},
+              i % 2 == 0 ? Quat::Identity() : Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())));
+  const SceneGrasps found = stage.find();
+  ASSERT_EQ(found.held_sets.size(), 1u);
+  const SceneGrasps::HeldSet& held = found.held_sets[0];
+  EXPECT_EQ(held.ids.size(), 5u);
+  EXPECT_EQ(found.removal_order, held.ids);
+  // An inner link is covered by two others, so that an end leaves first, and then the chain grows shorter from its
+  // ends.
+  ASSERT_GE(held.forced.size(), 1u);
+  EXPECT_TRUE(held.forced[0].part == 0 || held.forced[0].part == 4) << held.forced[0].part;
+  EXPECT_EQ(held.forced[0].part, held.ids[0]);
+  std::set<int> gone;
+  for (const int id : held.ids) {
+    double covered = 0.0;
+    const PartPick& pick = pick_of(found, id);
+    for (std::size_t i = 0; i < pick.blocked_by.size(); ++i)
+      if (!gone.count(pick.blocked_by[i])) covered += pick.blocked_areas[i];
+    for (const SceneGrasps::Forced& lift : held.forced)
+      if (lift.part == id) EXPECT_EQ(lift.overlap, covered) << id;
+    if (covered > 0.0)
+      EXPECT_TRUE(std::any_of(held.forced.begin(), held.forced.end(), [&](auto& lift) { return lift.part == id; }))
+          << id;
+    gone.insert(id);
+  }
+  EXPECT_LT(held.forced.size(), 5u);  // the last link is free
 }
 
 TEST(SceneGrasps, OverlapIsAnAreaAndAMoveThatFreesThePart) {

@@ -112,14 +112,21 @@ struct PartPick {
 struct SceneGrasps {
   std::vector<SceneGrasp> grasps;  ///< by part, then gripper, then score, the best first
   std::vector<PartPick> parts;     ///< in the order of the scene
-  /// The ids of all parts. Each part comes after the parts that block it, except within a set of `held_sets`. Of the
-  /// parts that are free at the same time, the highest one comes first; parts with depth -1 come last.
+  /// The ids of all parts. Each part comes after the parts that block it, except within a set of `held_sets`. Of
+  /// several parts that nothing blocks, the highest one comes first; parts that can never be lifted come last.
   std::vector<int> removal_order;
-  /// Parts that block each other in a circle, and that therefore have to be lifted together.
+  /// A part that is lifted although others of its set still cover it.
+  struct Forced {
+    int part = -1;
+    double overlap = 0.0;  ///< m2 that they cover
+  };
+  /// Parts that block each other in a circle. Two parts are lifted together. Of a larger set, the part that the others
+  /// cover least is lifted first, although they cover it; then those that this frees, and so on.
   struct HeldSet {
-    std::vector<int> ids;    ///< in the order of removal
-    int part = -1, by = -1;  ///< the pair with the smallest overlap: `part` is covered by `by`
-    double overlap = 0.0;    ///< m2, of that pair
+    std::vector<int> ids;        ///< in the order of removal
+    std::vector<Forced> forced;  ///< of a set of more than two parts, in the order of removal
+    int part = -1, by = -1;      ///< the pair with the smallest overlap: `part` is covered by `by`
+    double overlap = 0.0;        ///< m2, of that pair
   };
   std::vector<HeldSet> held_sets;
   /// The search for grasps of a part alone, for each part line and gripper.
