@@ -37,7 +37,7 @@ std::string bop_loss(const std::vector<Sensor>& sensors);
 
 /// A format in which scenes are written, as far as requests and plans know it (output/output_format.hpp).
 struct SceneFormat {
-  std::string name;  ///< of the option --formats and of the plan's key `outputs`
+  std::string name;  ///< a value of the option --formats and of the plan's key `outputs`
   enum class Needs {
     scene,   ///< poses and report alone
     images,  ///< what sensors see, if there are any

@@ -16,8 +16,8 @@ namespace bin_scenes {
 struct Surfaces {
   std::vector<Surface> lines;  ///< by part line
   Surface bin;
-  /// The position of a part, and the key of its texture: they distinguish its surface from those of other parts of the
-  /// same line.
+  /// Where a part lies, and the random key of its texture: in these, its surface differs from those of other parts of
+  /// the same line.
   struct Place {
     Pose to_part;       ///< from the bin frame to the frame of the part
     Vec3 longest;       ///< unit vector, longest axis of the part in the part's frame

@@ -14,7 +14,7 @@ struct ImageChannel {
   std::string name;  ///< <sensor>_<name>.png of the format png; <key>.<name>.png in shards
   /// Returns the counts of an image; Picture::channels is 0 if the image has no such channel.
   std::function<Picture(const RangeImage&)> counts;
-  int samples = 1;         ///< numbers of a pixel; 0: as many as the picture has
+  int samples = 1;         ///< values of a pixel; 0: as many as the picture has channels
   bool true_view = false;  ///< whether it has the size of the camera's own view, and not that of the measured images
   bool in_shards = false;  ///< whether shards contain it; every image must have it then
   std::string topic = {};  ///< ROS topic of a sensor; empty: none

@@ -26,7 +26,7 @@ struct SymmetryReport {
   double limit = 0.0;                                    ///< m: a rotation with at most this error counts as a symmetry
   struct Nearly {
     Vec3 direction = Vec3::UnitZ();
-    int order = 0;       ///< number of rotations in a full turn; 0 means any angle
+    int order = 0;       ///< of the rotational symmetry (2: half a turn); 0: any angle
     double error = 0.0;  ///< m, more than the limit and at most three times the limit
   };
   std::vector<Nearly> nearly;  ///< axes that miss the limit by little, for instance because of a mark or a chamfer

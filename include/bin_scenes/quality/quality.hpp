@@ -36,7 +36,7 @@ double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b,
 /// Fills report.penetration, report.gap, accepted and reasons of the scene from its poses and flags.
 ///
 /// Penetration is measured for all pairs with a movable part. Overlap below 1e-6 of the smaller diagonal is rounding
-/// and does not count. Escaped parts are measured against each other, not against the bin.
+/// and does not count. Of escaped parts, only the overlap with each other is measured.
 ///
 /// The gap of a part at rest is the distance that it could fall along gravity before it touches another part or the
 /// bin. A neighbour that the part overlaps counts as a support only if the shortest translation out of it points

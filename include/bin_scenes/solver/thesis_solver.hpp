@@ -3,8 +3,8 @@
 /// velocity bias resolve them, all in compute passes. It is selected by the preset `thesis` and kept for comparison
 /// with the tables of the thesis; the default solver is a different method.
 ///
-/// Where the text contradicts mechanics, the code follows mechanics (shaders/thesis/contact_impulse.h lists these
-/// places). In addition to the text, the code has batches of worlds, hash tables per body for the contact counts,
+/// Where the thesis contradicts mechanics, the code follows mechanics (shaders/thesis/contact_impulse.h lists these
+/// places). Beyond the thesis, the code has batches of worlds, hash tables per body for the contact counts,
 /// results that do not depend on the order of arrival, buffers that grow, and bins whose walls and floor are lattices
 /// of static spheres that are computed on demand.
 ///
