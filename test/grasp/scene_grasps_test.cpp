@@ -105,11 +105,12 @@ TEST(SceneGrasps, ChainsOfManyLinksAreTakenApartWhereTheyCoverEachOtherLeast) {
     const PartPick& pick = pick_of(found, id);
     for (std::size_t i = 0; i < pick.blocked_by.size(); ++i)
       if (!gone.count(pick.blocked_by[i])) covered += pick.blocked_areas[i];
-    for (const SceneGrasps::Forced& lift : held.forced)
-      if (lift.part == id) EXPECT_EQ(lift.overlap, covered) << id;
-    if (covered > 0.0)
-      EXPECT_TRUE(std::any_of(held.forced.begin(), held.forced.end(), [&](auto& lift) { return lift.part == id; }))
-          << id;
+    const auto forced =
+        std::find_if(held.forced.begin(), held.forced.end(), [&](auto& lift) { return lift.part == id; });
+    EXPECT_EQ(forced != held.forced.end(), covered > 0.0) << id;
+    if (forced != held.forced.end()) {
+      EXPECT_EQ(forced->overlap, covered) << id;
+    }
     gone.insert(id);
   }
   EXPECT_LT(held.forced.size(), 5u);  // the last link is free
