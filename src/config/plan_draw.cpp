@@ -1,3 +1,5 @@
+/// Draws the request of one heap from a plan: each key with a distribution gets a value that depends only on the plan's
+/// seed, the key and the index of the heap. The rest of the request is that of the plan.
 #include "config/plan_state.hpp"
 #include "config/plan_surfaces.hpp"
 #include "config/read_document.hpp"
