@@ -109,7 +109,7 @@ TEST_F(ConfigTest, PicturesOfDomesAreFilesBesideTheRequest) {
   };
   expect_refused(with("{type: dome, picture: sk.hdr}"), {"sk.hdr", "did you mean 'sky.hdr'?", "request.yaml:2"});
   expect_refused(with("{type: dome, picture: bolt.stl}"), {"bolt.stl", "no Radiance picture", "request.yaml:2"});
-  expect_refused(with("{type: area, picture: sky.hdr}"), {"no dome"});
+  expect_refused(with("{type: area, picture: sky.hdr}"), {"applies only to lamps of type dome"});
 }
 
 TEST_F(ConfigTest, MaterialsAreSurfacesByName) {

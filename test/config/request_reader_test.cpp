@@ -80,7 +80,7 @@ sensors:
              disparity_noise: 0.1, min_signal: 0.05}
     time_of_flight: {axial: 0.002, axial_growth: 0.003, axial_distance: 0.5, axial_angle: 0.0002, lateral: 0.7,
                      lateral_angle: 0.03, albedo: 0.6, min_signal: 0.02, mixed: remove, edge_step: 0.03, modulation: 80}
-grippers: [{name: two, stroke: 0.07}]
+grippers: [{name: two, stroke: 0.07, score: {bias: -0.5, holding: 1.5, sliding: 2.5}}]
 prove: 5
 accept: {penetration: 0.03, gap: 0.04, escaped: true}
 seconds: 1.5
@@ -207,6 +207,9 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(filter.outlier.neighbours, 6);
   EXPECT_EQ(filter.outlier.window, 7);
   EXPECT_EQ(filter.outlier.step, 0.01);
+  EXPECT_EQ(r.grippers.at(0).score.bias, -0.5);
+  EXPECT_EQ(r.grippers.at(0).score.holding, 1.5);
+  EXPECT_EQ(r.grippers.at(0).score.sliding, 2.5);
   EXPECT_EQ(r.accept.penetration, 0.03);
   EXPECT_EQ(r.accept.gap, 0.04);
   EXPECT_TRUE(r.accept.escaped);

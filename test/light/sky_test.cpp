@@ -167,7 +167,7 @@ TEST(Sky, MistakesOfPicturesAreTold) {
   refused(sky(::testing::TempDir() + "cut.hdr"), "ends before");
   ImageLamp area = flat(ImageLamp::Type::area, Vec3::Zero());
   area.picture = "sky.hdr";
-  refused(area, "no dome");
+  refused(area, "applies only to lamps of type dome");
 }
 
 }  // namespace
