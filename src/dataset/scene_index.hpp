@@ -37,7 +37,7 @@ class SceneIndex {
   void forget(std::size_t heap);
   std::set<std::size_t> heaps() const;  ///< the heaps that are done or have failed
   IndexCounts counts() const;
-  /// Heaps that are to be here: those whose number leaves `shard` when divided by `shards`, and those of calls before.
+  /// Adds the heaps whose number divided by `shards` leaves the remainder `shard` to those that this folder must hold.
   void add_share(std::size_t shard, std::size_t shards);
   std::set<std::pair<std::size_t, std::size_t>> shares() const;
   std::map<std::string, double> stages_ms() const;  ///< summed over all heaps

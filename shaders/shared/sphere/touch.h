@@ -33,9 +33,9 @@ INLINE float exit_distance(IN(Field) field, IN(vec3) point, IN(vec3) along, floa
   return -1.0f;
 }
 
-// Emits the candidate of a sample. `place` may be the predicted position of the sample, which is view.ahead from its
-// present one: the contact is then with the surface that the sample will face, with the distance of its present
-// position, and does not press before the sample is there.
+// Emits the candidate of a sample. `place` is its present position, or the predicted one, which is view.ahead further.
+// In the latter case the contact is with the surface that the sample will face. Its gap is measured from the present
+// position, so that it does not press before the sample has arrived.
 //
 // If the normal was `turned`, it is that of the sample's surface: it moves with the sample's body, and the point moves
 // with the other body.

@@ -12,8 +12,8 @@
 ///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step;
 ///                                                                        impulses alike
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
-///     samples    | those of these pairs that are near, in no order |   touches alike; candidates, in chains of their
-///                                                                      jobs
+///     samples    | samples near the other part of a pair, unordered |  touches and candidates have lists of the same
+///                                                                      kind; a job's candidates are linked
 ///
 /// A step is eleven dispatches, however many worlds run:
 ///
