@@ -26,7 +26,7 @@ constexpr int all_corners = std::numeric_limits<int>::max();
 
 /// A concave edge of a wall.
 struct WallEdge {
-  Vec3 start, end, along, inward;  // inward: halfway between the normals of its facets
+  Vec3 start, end, along, inward;  // inward: half way between the normals of its facets
   Vec3 center() const { return 0.5 * (start + end); }
 };
 
