@@ -1,4 +1,5 @@
-/// Applies the measures of an audit to one heap of a BOP data set: overlap, gap and drift.
+/// Applies the measures of an audit to one heap of a BOP data set: overlap, gap and drift. It needs poses and models,
+/// but no images; labels.hpp judges images, and judge.hpp compares all values with the limits.
 #pragma once
 
 #include "audit/labels.hpp"

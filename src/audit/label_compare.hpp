@@ -1,4 +1,5 @@
-/// Compares a mask with the silhouette of the model at its stated pose: overlap and displacement.
+/// Compares a mask with the silhouette of the model at its stated pose: overlap and displacement. It works on two
+/// images alone and knows neither data sets nor limits, which are in labels.hpp and auditor.hpp.
 #pragma once
 
 #include "bop/files.hpp"

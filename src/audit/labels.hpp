@@ -1,5 +1,6 @@
 /// Compares the labels of a BOP image with the models at their stated poses: masks, depth, missing files, and exchanged
-/// parts.
+/// parts. The silhouettes and the depth of the models are drawn by the raster layer; the camera is corrected first by
+/// the error that was found over the whole set.
 #pragma once
 
 #include "audit/camera_error.hpp"

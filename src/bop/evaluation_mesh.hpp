@@ -1,5 +1,6 @@
 /// Makes the models with which pose errors are computed: their vertices are spread evenly over the surface, and there
-/// are no more of them than this requires.
+/// are no more of them than this requires. BOP expects them in the folder `models_eval`; they are not used for
+/// simulation.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

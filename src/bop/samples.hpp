@@ -1,4 +1,5 @@
-/// BOP's layout by images: samples, to be packed into shards.
+/// BOP's layout by images: samples, to be packed into shards. dataset/shards.hpp packs the samples into tar files and
+/// removes them.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

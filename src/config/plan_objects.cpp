@@ -36,8 +36,15 @@ void PlanObjects::add(const Request& request, const Complain& complain) {
   for (const PartLine& line : request.parts) {
     const auto same = [&](const PlanObject& object) { return is_of(object, line); };
     if (std::any_of(all.begin(), all.end(), same)) continue;
-    PlanObject object{line.model,     line.path,         line.sha256, line.unit, line.scale,
-                      line.thickness, line.tessellation, line.solid,  {},        {}};
+    PlanObject object;
+    object.model = line.model;
+    object.path = line.path;
+    object.sha256 = line.sha256;
+    object.unit = line.unit;
+    object.scale = line.scale;
+    object.thickness = line.thickness;
+    object.tessellation = line.tessellation;
+    object.solid = line.solid;
     try {
       const YAML::Node& given = symmetries;  // read alone: a node that is not there stays so
       if (given.IsMap() && given[object.model]) read_symmetries(given[object.model], object);

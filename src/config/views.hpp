@@ -1,5 +1,5 @@
 /// Expands the key `views` of a sensor into one sensor for each view, so that the rest of the program knows sensors
-/// only.
+/// only. It also provides the pose of a camera that looks at a point.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

@@ -1,5 +1,5 @@
 /// Finds the data files (shaders, presets) of an installation that was moved to another place, relative to the
-/// executable.
+/// executable. It only lists candidates; the caller decides which of them has the file.
 #pragma once
 
 #include <filesystem>

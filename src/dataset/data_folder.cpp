@@ -103,7 +103,13 @@ fs::path DataFolder::shard(std::size_t shard) const {
 }
 
 BopFolder bop_folder(const DataFolder& folder, const DataSetFacts& facts) {
-  BopFolder bop{folder.root / "bop", facts.bop, facts.tolerance, facts.run_lengths, facts.most_targets, facts.version};
+  BopFolder bop;
+  bop.root = folder.root / "bop";
+  bop.layout = facts.bop;
+  bop.tolerance = facts.tolerance;
+  bop.run_lengths = facts.run_lengths;
+  bop.most_targets = facts.most_targets;
+  bop.version = facts.version;
   for (const auto& [split, share] : facts.split) bop.splits.push_back(split);
   for (const std::string& split : bop.splits) {
     const std::vector<std::size_t> scenes = bop.scenes(split);

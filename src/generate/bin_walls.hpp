@@ -1,5 +1,5 @@
 /// Tests whether the mesh of a bin has walls that hold parts: walls with two sides, and not a single sheet of triangles
-/// that parts could pass through.
+/// that parts could pass through. It only refuses such a bin, and changes nothing.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,5 +1,5 @@
 /// Assembles the text of a shader that the compiler receives, and maps the lines of compiler messages back to source
-/// files.
+/// files. It resolves includes and adds definitions; it does not compile (gl/program.hpp).
 #pragma once
 
 #include "bin_scenes/gl/program.hpp"

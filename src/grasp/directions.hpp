@@ -1,4 +1,5 @@
-/// Directions of a part's shape with which grippers are aligned.
+/// Directions of a part's shape with which grippers are aligned. They are candidates only: the searches of
+/// parallel_grasps.hpp and suction_grasps.hpp turn the gripper to them first.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

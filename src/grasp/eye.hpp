@@ -1,4 +1,5 @@
-/// Visibility of the contacts of grasps in one image.
+/// Visibility of the contacts of grasps in one image. For each contact, it determines what share the camera of the
+/// image sees and has measured, by the labels and the depth of the image. The image itself is not changed.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

@@ -1,4 +1,5 @@
-/// Boxes around a finger that is given as a mesh.
+/// Boxes around a finger that is given as a mesh. Collisions of the gripper are tested with these boxes
+/// (gripper_shape.hpp); simulated proofs use the mesh itself.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
-/// A gripper as convex bodies in its own frame.
+/// A gripper as convex bodies in its own frame. reach.hpp tests these bodies, or the volumes that they sweep, against
+/// the scene.
 #pragma once
 
 #include "bin_scenes/scene/gripper.hpp"

@@ -1,4 +1,5 @@
-/// Whether a grasp holds a part that is lifted.
+/// Whether a grasp holds a part that is lifted. It computes the static safety of a grasp from contacts, friction and
+/// load; the dynamic proof by a simulated lift is in pour/prover.hpp.
 #pragma once
 
 #include "bin_scenes/grasp/part_grasps.hpp"

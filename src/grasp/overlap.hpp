@@ -1,4 +1,5 @@
-/// Areas over which parts cover each other, measured in the columns of a horizontal grid.
+/// Areas over which parts cover each other, measured in the columns of a horizontal grid. Grasp labels report them, and
+/// removal.hpp uses them to choose the part of a blocked set that is lifted first.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

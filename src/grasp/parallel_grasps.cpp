@@ -130,15 +130,16 @@ std::optional<PressedPad> press_side(const PartModel& part, const Gripper& gripp
                                      const Aperture& guess, double side) {
   const Mat3 frame = pose.orientation.toRotationMatrix();
   const double out = guess.inner ? -side : side;  // of the surface, along x
-  Pad pad{pose.position + side * 0.5 * guess.width * frame.col(0),
-          out * frame.col(1),
-          frame.col(2),
-          out * frame.col(0),
-          0.5 * gripper.finger_width,
-          0.5 * gripper.pad_length,
-          0.0,
-          gripper.pad_give,
-          friction};
+  Pad pad;
+  pad.center = pose.position + side * 0.5 * guess.width * frame.col(0);
+  pad.u = out * frame.col(1);
+  pad.v = frame.col(2);
+  pad.out = out * frame.col(0);
+  pad.half_u = 0.5 * gripper.finger_width;
+  pad.half_v = 0.5 * gripper.pad_length;
+  pad.start = 0.0;
+  pad.give = gripper.pad_give;
+  pad.friction = friction;
   pad.start = std::max(gripper.opened(guess), same_place * part.diagonal());
   return PressedPad::on(part.query(), pad);
 }

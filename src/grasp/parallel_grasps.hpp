@@ -1,4 +1,5 @@
 /// Poses of a two-finger gripper whose pads meet the part from opposite sides, or two walls of a hole from within.
+/// These functions know only the part, not its neighbours; scene_search.hpp applies them to a scene.
 #pragma once
 
 #include "bin_scenes/grasp/part_grasps.hpp"

@@ -27,6 +27,15 @@ double lowest(const Aabb& box, const Vec3& direction) {
 
 namespace {
 
+/// The bin, or a part whose number and state are not stated yet.
+PlacedPart placed_at(const MeshQuery& mesh, const Pose& pose) {
+  PlacedPart placed;
+  placed.mesh = &mesh;
+  placed.pose = pose;
+  placed.box = box_of(mesh, pose);
+  return placed;
+}
+
 std::vector<Vec3> tops_of(const std::vector<SpreadPoint>& points, const Pose& pose, const Vec3& up) {
   std::vector<Vec3> tops;
   for (const SpreadPoint& point : points)
@@ -46,16 +55,19 @@ PlacedParts::PlacedParts(const Scene& scene, const LoadedRequest& loaded) {
     if (!is_there(part.state) || !part.pose.finite()) continue;
     const MeshQuery& mesh = loaded.parts.at(part.line)->query();
     const bool movable = part.state != PartState::fixed && part.state != PartState::escaped;
-    all_.push_back({&mesh, part.pose, box_of(mesh, part.pose), part.id, part.line, movable, {}});
-    if (movable) all_.back().tops = tops_of(spread[part.line], part.pose, up_);
+    PlacedPart placed = placed_at(mesh, part.pose);
+    placed.id = part.id;
+    placed.line = part.line;
+    placed.movable = movable;
+    if (movable) placed.tops = tops_of(spread[part.line], part.pose, up_);
+    all_.push_back(std::move(placed));
   }
   const Bin& bin = request.bin;
   if (bin.kind == Bin::Kind::mesh && loaded.bin_model) {
-    const MeshQuery& mesh = loaded.bin_model->query();
-    all_.push_back({&mesh, bin.pose, box_of(mesh, bin.pose), -1, 0, false, {}});
+    all_.push_back(placed_at(loaded.bin_model->query(), bin.pose));
   } else if (bin.kind == Bin::Kind::box) {
     walls_ = std::make_unique<MeshQuery>(box_bin_mesh(bin));
-    all_.push_back({walls_.get(), Pose(), box_of(*walls_, Pose()), -1, 0, false, {}});
+    all_.push_back(placed_at(*walls_, Pose()));
   }
   floor_ = bin.kind == Bin::Kind::floor;
   flat_floor_ = floor_ || bin.kind == Bin::Kind::box;

@@ -1,4 +1,5 @@
-/// The parts and the bin of a scene as obstacles.
+/// The parts and the bin of a scene as obstacles. Each has its mesh at its final pose with a bounding box, so that
+/// sweeps of a gripper can be tested against it.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

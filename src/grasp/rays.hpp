@@ -1,4 +1,5 @@
-/// The points where a ray passes through the surface of a mesh.
+/// The points where a ray passes through the surface of a mesh. Searches for grasps use them to find opposite sides of
+/// a part, and removal.hpp uses them to find what is above it.
 #pragma once
 
 #include "bin_scenes/part/mesh_query.hpp"

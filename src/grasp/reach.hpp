@@ -1,4 +1,5 @@
-/// Collisions of a gripper on its path to a part and out of the bin.
+/// Collisions of a gripper on its path to a part and out of the bin. It tests the swept bodies of gripper_shape.hpp
+/// against the obstacles of placed_parts.hpp, and does not ask whether the grasp holds (holding.hpp).
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

@@ -1,4 +1,5 @@
-/// Which parts obstruct the lift of others, and an order in which all parts can be lifted.
+/// Which parts obstruct the lift of others, and an order in which all parts can be lifted. Parts are lifted straight
+/// along a direction; grippers are not considered here.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

@@ -1,4 +1,5 @@
-/// The score of a grasp from its columns.
+/// The score of a grasp from its columns. The weights belong to the gripper, so that they can be fitted to the success
+/// rates of simulated lifts.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

@@ -1,4 +1,5 @@
-/// Planes between two parts: a quick proof that the one does not obstruct the other.
+/// Planes between two parts: a quick proof that the one does not obstruct the other. When no plane is found, the caller
+/// tests the meshes themselves (removal.hpp).
 #pragma once
 
 #include "bin_scenes/part/mesh_query.hpp"

@@ -1,4 +1,5 @@
-/// Poses of a cup whose ring seals on the part.
+/// Poses of a cup whose ring seals on the part. The function knows only the part; scene_search.hpp tries its poses in a
+/// scene.
 #pragma once
 
 #include "bin_scenes/grasp/part_grasps.hpp"

@@ -1,4 +1,5 @@
-/// Points that are spread evenly over a surface.
+/// Points that are spread evenly over a surface. They are the starting points of searches for grasps, and they are the
+/// same in each run.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -33,8 +33,13 @@ Lamps::Lamps(std::vector<ImageLamp> lamps, const Sensor& sensor) {
     if (!ring && lamp.type != ImageLamp::Type::area) continue;
     const Pose pose = lamp.pose.value_or(*sensor.pose);
     const Mat3 axes = pose.orientation.toRotationMatrix();
-    Flat flat{pose.position, axes.col(0), axes.col(1), axes.col(2), radiance, ring, lamp.width, lamp.height, 0.0};
-    if (ring) flat.width = lamp.inner, flat.height = lamp.outer;
+    Flat flat;
+    flat.center = pose.position;
+    flat.x = axes.col(0), flat.y = axes.col(1), flat.normal = axes.col(2);
+    flat.radiance = radiance;
+    flat.ring = ring;
+    flat.width = ring ? lamp.inner : lamp.width;
+    flat.height = ring ? lamp.outer : lamp.height;
     flat.area = ring ? M_PI * (lamp.outer * lamp.outer - lamp.inner * lamp.inner) : lamp.width * lamp.height;
     flats_.push_back(flat);
   }

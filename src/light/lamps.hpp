@@ -1,4 +1,5 @@
 /// The lamps of the sensor model `image`: random points on a lamp, and the radiance that a ray finds if it hits a lamp.
+/// path_tracer.hpp combines both by multiple importance sampling.
 #pragma once
 
 #include "bin_scenes/light/image_lamp.hpp"

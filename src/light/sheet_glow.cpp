@@ -86,12 +86,12 @@ SheetGlow::SheetGlow(const Scenery& scenery, const Surfaces& surfaces, const Cam
 /// Light that travels.
 struct SheetGlow::Flight {
   SeenPoint from;
-  Vec3 to_light;  ///< unit, back to where it came from
-  double flux;    ///< as of a source
-  double apart;   ///< m, between lines of spots
-  double angle;   ///< rad, width of the cone that a ray stands for
-  double spread;  ///< m, width of that cone
-  Vec3 direction;
+  Vec3 to_light;        ///< unit, back to where it came from
+  double flux;          ///< as of a source
+  double apart;         ///< m, between lines of spots
+  double angle = 0.0;   ///< rad, width of the cone that a ray stands for
+  double spread = 0.0;  ///< m, width of that cone
+  Vec3 direction = Vec3::Zero();
 };
 
 /// Light that leaves each source as it came in.
@@ -101,13 +101,11 @@ std::vector<SheetGlow::Flight> SheetGlow::take_off(const Vec3& laser, const std:
   std::vector<Flight> flights(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Source& source = sources[static_cast<std::size_t>((static_cast<double>(i) + shift) * per_ray)];
-    flights[i] = {source.point,
-                  (laser - source.point.position).normalized(),
-                  per_ray * source.flux,
-                  per_ray * source.apart,
-                  0.0,
-                  0.0,
-                  Vec3::Zero()};
+    Flight& flight = flights[i];
+    flight.from = source.point;
+    flight.to_light = (laser - source.point.position).normalized();
+    flight.flux = per_ray * source.flux;
+    flight.apart = per_ray * source.apart;
   }
   return flights;
 }

@@ -1,4 +1,5 @@
-/// Finds the holes of a surface, which are closed loops of open edges, and closes small ones with triangles.
+/// Finds the holes of a surface, which are closed loops of open edges, and closes small ones with triangles. It is one
+/// step of the repair in mesh_loader.cpp.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,5 +1,5 @@
 /// Lists the members of meshes and flags for byte streams (core/byte_stream.hpp), which the disk cache and contained
-/// processes use.
+/// processes use. A new member of these structs must be added here.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,4 @@
-/// Formats counts and lengths for messages about meshes.
+/// Formats counts and lengths for messages about meshes. It is for text that people read only.
 #pragma once
 
 #include <cstdio>

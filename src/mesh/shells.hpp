@@ -1,5 +1,5 @@
 /// Finds the connected components (shells) of a surface, their volume and area, and the winding number of their
-/// triangles about a point.
+/// triangles about a point. The repair steps use them; they do not change the mesh.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

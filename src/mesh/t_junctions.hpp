@@ -1,5 +1,5 @@
 /// Repairs T-junctions: a long edge that meets several short ones is split at their end points, so that the surface
-/// becomes closed.
+/// becomes closed. It is one step of the repair in mesh_loader.cpp, after welding.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
-/// Turns an open surface into a closed solid of a given thickness.
+/// Turns an open surface into a closed solid of a given thickness. It serves sheet-metal parts that are modelled as
+/// surfaces (the key `thickness` of a part).
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
-/// Unites the overlapping closed shells of a part into one solid, so that its volume counts only once.
+/// Unites the overlapping closed shells of a part into one solid, so that its volume counts only once. It is the last
+/// step of the repair in mesh_loader.cpp that changes the mesh.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,5 @@
 /// Welds a mesh: merges vertices that are equal within a tolerance, and removes the triangles that become degenerate.
+/// It also removes slivers and duplicate triangles. These are the first steps of the repair in mesh_loader.cpp.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

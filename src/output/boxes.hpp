@@ -1,4 +1,5 @@
-/// Computes the bounding boxes of parts in an image, for BOP files and for the block `truth` of scene.json.
+/// Computes the bounding boxes of parts in an image, for BOP files and for the block `truth` of scene.json. Boxes are
+/// in pixels of the image as taken.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,5 +1,5 @@
 /// The binary layout of a point in PCD and PLY files (little-endian): measured values, one byte of validity, the true
-/// normal, and the SNR.
+/// normal, and the SNR. The writers of cloud.cpp and the readers of clouds share it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 /// Writes grey images as JPEG files with three equal channels, because training programs look for colour images in this
-/// format.
+/// format. It serves data sets only; measured values are stored without loss in PNG files.
 #pragma once
 
 #include "output/png.hpp"

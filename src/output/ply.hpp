@@ -1,4 +1,5 @@
-/// Writes the meshes of models as PLY files.
+/// Writes the meshes of models as PLY files. It also reads these files again; models of users are read by
+/// mesh/mesh_loader.hpp.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

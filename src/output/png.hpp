@@ -1,4 +1,5 @@
-/// Writes images as PNG files without loss, and writes bytes to a file in one piece.
+/// Writes images as PNG files without loss, and writes bytes to a file in one piece. It converts depth, SNR and normals
+/// to the integers that files hold, and draws pictures for people; png_reader.hpp reads the files again.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"

@@ -1,4 +1,5 @@
-/// Reads PNG files as the arrays of counts from which png.hpp wrote them.
+/// Reads PNG files as the arrays of counts from which png.hpp wrote them. Checks of data sets and the audit use it;
+/// libpng decodes the files.
 #pragma once
 
 #include <cstdint>

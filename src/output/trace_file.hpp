@@ -1,4 +1,5 @@
-/// Writes a trace as a CSV file with one row for each part and sample (output/trace.hpp).
+/// Writes a trace as a CSV file with one row for each part and sample (output/trace.hpp). Other formats of a trace are
+/// in trace_lines.hpp (.jsonl) and in ros/ (.bag, .mcap).
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"

@@ -1,4 +1,6 @@
-/// The data of a PartModel: its mesh, and the shapes that have been made so far.
+/// The data of a PartModel: its mesh, and the shapes that have been made so far. Each shape is made when it is first
+/// requested, once, under a lock of its own; several threads may use one PartModel. This is the private part of
+/// part_model.hpp.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,5 +1,6 @@
 /// Determines with one ray whether a point is inside a closed mesh: every surface that the ray passes changes the
-/// winding number by one.
+/// winding number by one. It reports when rounding could change the answer, so that the caller can decide by another
+/// method.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -125,9 +125,14 @@ void EnergyAudit::observe(double time, const std::vector<BodyState>& states, boo
     const double distance = std::max(0.5 * (before.speed + now.speed) * seconds, (now.center - before.center).norm());
     const double gain = now.kinetic - before.kinetic + now.potential - before.potential -
                         allowed * std::max(now.kinetic, before.kinetic);
-    reaches.push_back({b, 0.5 * (before.center + now.center),
-                       part.radius() + 0.5 * distance + 0.5 * touching * part.diagonal(), gain, before.swift,
-                       now.speed});
+    Reach reach;
+    reach.body = b;
+    reach.center = 0.5 * (before.center + now.center);
+    reach.radius = part.radius() + 0.5 * distance + 0.5 * touching * part.diagonal();
+    reach.gain = gain;
+    reach.before = before.swift;
+    reach.now = now.speed;
+    reaches.push_back(reach);
     faster |= now.speed > least_speed(b) && now.speed > flagged_ratio * before.swift + gravity_ * seconds;
     gained |= gain > worst_.gain * world_.bodies[b].mass * gravity_ * part.diagonal();
     before = now;

@@ -1,5 +1,5 @@
 /// Makes the bodies of a gripper for a simulated world: fingers or ring, and palm, in the gripper frame
-/// (scene/gripper.hpp).
+/// (scene/gripper.hpp). The simulated lift of pour/prover.hpp uses them.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

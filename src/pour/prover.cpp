@@ -116,11 +116,19 @@ class Attempt {
   void go(double seconds) {
     const double next = stage_ == Stage::lift ? height_at(time_ + seconds, gripper_.acceleration) : height_;
     const Vec3 velocity = (next - height_) / seconds * trial_.lift;
-    if (parallel())
-      solver_.set_jaws(id_, {first_, first_ + 1, (trial_.inner ? -1.0 : 1.0) * axis(), trial_.force, closing_speed,
-                             jaw_masses * ground_.world.bodies[part_].mass, velocity});
-    else
+    if (parallel()) {
+      Jaws jaws;
+      jaws.first = first_;
+      jaws.second = first_ + 1;
+      jaws.axis = (trial_.inner ? -1.0 : 1.0) * axis();
+      jaws.force = trial_.force;
+      jaws.speed = closing_speed;
+      jaws.mass = jaw_masses * ground_.world.bodies[part_].mass;
+      jaws.velocity = velocity;
+      solver_.set_jaws(id_, jaws);
+    } else {
       solver_.set_force(id_, part_, -vacuum() * (trial_.pose.orientation * Vec3::UnitZ()), mouth());
+    }
     for (std::size_t k = parallel() ? 2 : 0; stage_ == Stage::lift && k < bodies_.size(); ++k) {
       Pose pose = starts_[k];
       pose.position += height_ * trial_.lift;

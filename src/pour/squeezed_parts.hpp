@@ -1,4 +1,5 @@
-/// Start poses that the default solver cannot hold: a part without friction under a much heavier one.
+/// Start poses that the default solver cannot hold: a part without friction under a much heavier one. They are refused
+/// before the simulation starts; other heavy loads are simulated.
 #pragma once
 
 #include "pour/pour_plan.hpp"

@@ -1,4 +1,5 @@
-/// A scene for Python: the memory that the numpy arrays of the module share without copying.
+/// A scene for Python: the memory that the numpy arrays of the module share without copying. module.cpp declares the
+/// Python classes; computed arrays are made on their first use.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"

@@ -1,4 +1,5 @@
-/// Computes the gap of a part at rest: the distance that it could fall before another surface supports it.
+/// Computes the gap of a part at rest: the distance that it could fall before another surface supports it. It is a
+/// measure of errors, after the simulation, and does not depend on the solver.
 #pragma once
 
 #include "placed.hpp"

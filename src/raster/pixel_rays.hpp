@@ -1,5 +1,5 @@
 /// Directions of the pixels of a camera: Lens::ray() at pixel centres, where everything that is constant for a row or a
-/// column is computed once.
+/// column is computed once. Without distortion and skew, a direction costs two table lookups.
 #pragma once
 
 #include "bin_scenes/raster/lens.hpp"

@@ -1,4 +1,5 @@
-/// Determines which pixel centres a triangle covers.
+/// Determines which pixel centres a triangle covers. It is the innermost part of the triangle walk
+/// (raster/projection.hpp), which decides by depth what is visible.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,4 +1,5 @@
-/// Fills the topic /diagnostics with the state of one bin: device, quality of the last scene, queue and cache.
+/// Fills the topic /diagnostics with the state of one bin: device, quality of the last scene, queue and cache. It only
+/// reads the state; it starts no work.
 #pragma once
 
 #include "publication.hpp"

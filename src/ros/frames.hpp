@@ -1,4 +1,5 @@
-/// The names of the TF frames, and the pose of the bin in the parent frame that the user chose.
+/// The names of the TF frames, and the pose of the bin in the parent frame that the user chose. It also converts poses
+/// to messages and makes the transforms of a scene; part_frames.hpp sends them.
 #pragma once
 
 #include "bin_scenes/scene/scene.hpp"

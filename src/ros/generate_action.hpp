@@ -1,4 +1,5 @@
-/// The action `generate`: it turns goals into jobs of the queue, and progress into feedback.
+/// The action `generate`: it turns goals into jobs of the queue, and progress into feedback. The queue (scene_jobs.hpp)
+/// does the work in a thread of its own.
 #pragma once
 
 #include "scene_jobs.hpp"

@@ -1,4 +1,4 @@
-/// Converts grasps to ROS messages.
+/// Converts grasps to ROS messages. It serves the services get_grasps and pick_part, and makes the markers of grasps.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

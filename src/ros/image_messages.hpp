@@ -1,5 +1,5 @@
 /// Converts a range image to ROS messages: an organised cloud, depth, labels, validity and camera model, all with one
-/// stamp and one frame.
+/// stamp and one frame. It converts only; topics.hpp decides what is published.
 #pragma once
 
 #include "bin_scenes/output/image_channel.hpp"

@@ -1,5 +1,5 @@
 /// Access to the fields of a ROS message by their names, so that requests and reports are converted by the tables of
-/// their keys.
+/// their keys. It reads and writes the values of a message, and does not know what they mean.
 #pragma once
 
 #include <ros/message_traits.h>

@@ -1,5 +1,5 @@
 /// Determines whether the client that waits for the answer of a service call still exists, so that its job can be
-/// cancelled otherwise.
+/// cancelled otherwise. roscpp does not report this itself.
 #pragma once
 
 #include <ros/connection.h>

@@ -1,4 +1,5 @@
-/// Reads the ROS parameters of the node.
+/// Reads the ROS parameters of the node. The names and defaults of the parameters are documented at the members of
+/// Settings and in docs/use/ros.md.
 #pragma once
 
 #include "bin_scenes/config/request_reader.hpp"

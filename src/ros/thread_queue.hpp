@@ -1,4 +1,5 @@
 /// A thread with its own callback queue: callbacks of roscpp and posted functions run in it one after the other.
+/// Objects that are used in this thread only need no locks.
 #pragma once
 
 #include <ros/callback_queue.h>

@@ -1,4 +1,5 @@
-/// Fits balls and planes to points by least squares, for the quality figures of sensors (sensor/metrics.hpp).
+/// Fits balls and planes to points by least squares, for the quality figures of sensors (sensor/metrics.hpp). The
+/// residuals are returned as well, because the quality figures are computed from them.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -1,4 +1,5 @@
 /// Targets for measuring a sensor: plates, steps and balls of known shape, placed in an otherwise empty world.
+/// metrics.hpp and the benchmarks of sensors use them; requests cannot contain them.
 #pragma once
 
 #include "bin_scenes/raster/scenery.hpp"

@@ -73,8 +73,17 @@ double largest_error(const SymmetryReport& symmetries) {
 }
 
 Inspection::File file_of(const LoadReport& report) {
-  return {report.format,         unit_text(report),     report.metres_per_unit,    report.meshes, report.file_vertices,
-          report.file_triangles, report.content_sha256, report.tessellation_error, report.flags};
+  Inspection::File file;
+  file.format = report.format;
+  file.unit = unit_text(report);
+  file.metres_per_unit = report.metres_per_unit;
+  file.meshes = report.meshes;
+  file.vertices = report.file_vertices;
+  file.triangles = report.file_triangles;
+  file.sha256 = report.content_sha256;
+  file.tessellation_error = report.tessellation_error;
+  file.flags = report.flags;
+  return file;
 }
 
 Inspection::Mass mass_of(const MassProperties& mass) {

@@ -1,4 +1,5 @@
-/// What `inspect` states of a model, and the tables of it that its JSON and its text are both made from.
+/// What `inspect` states of a model, and the tables of it that its JSON and its text are both made from. inspect.cpp
+/// fills it in and prints it.
 #pragma once
 
 #include "bin_scenes/part/shape_error.hpp"

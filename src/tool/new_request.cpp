@@ -65,12 +65,12 @@ std::string path_from(const fs::path& folder, const std::string& model) {
 
 struct Draft {
   const NewOptions& options;
-  PartModelPtr part;
-  ChosenUnit unit;
-  FittedBin fitted;
-  Bin bin;
-  std::optional<Sensor> sensor;  ///< of the preset
-  SensorPlace place;
+  PartModelPtr part = nullptr;
+  ChosenUnit unit = {};
+  FittedBin fitted = {};
+  Bin bin = {};
+  std::optional<Sensor> sensor = {};  ///< of the preset
+  SensorPlace place = {};
 };
 
 std::string part_text(const Draft& d, const fs::path& folder) {
@@ -189,7 +189,7 @@ void check_options(const NewOptions& options) {
 
 int new_request(const NewOptions& options) {
   check_options(options);
-  Draft draft{options, nullptr, {}, {}, {}, {}, {}};
+  Draft draft{options};
   if (!options.sensor.empty()) draft.sensor = sensor_preset(options.sensor);
   const std::optional<Unit> given = unit_given(options.unit);
   LoadOptions load;

@@ -1,4 +1,5 @@
-/// The option --unit, which several commands share.
+/// The option --unit, which several commands share. It converts the text of the option to a Unit and refuses other
+/// texts.
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

@@ -1,4 +1,6 @@
 /// Grasps in a finished scene: the free grasps of each part, the parts that obstruct its lift, and an order of removal.
+/// Generator computes it on demand; files, the node and the Python module only convert it. part_grasps.hpp has the
+/// grasps of a part alone.
 #pragma once
 
 #include "bin_scenes/grasp/part_grasps.hpp"

@@ -1,4 +1,5 @@
-/// A lamp of the sensor model `image`: its kind, place, size and brightness, as a request gives them.
+/// A lamp of the sensor model `image`: its kind, place, size and brightness, as a request gives them. It holds the
+/// values only; light/lamps.hpp computes the light.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

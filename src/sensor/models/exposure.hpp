@@ -1,4 +1,5 @@
-/// The automatic exposure of grey images: the parts in view determine how bright they are.
+/// The automatic exposure of grey images: the parts in view determine how bright they are. It changes brightness only,
+/// not depth.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,4 +1,5 @@
-/// The sensor model `ideal`: exact depth at pixel centres, without noise or occlusion of light.
+/// The sensor model `ideal`: exact depth at pixel centres, without noise or occlusion of light. It serves as ground
+/// truth beside the other models.
 #pragma once
 
 #include "bin_scenes/sensor/models.hpp"

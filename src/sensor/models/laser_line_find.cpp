@@ -48,14 +48,16 @@ std::optional<LaserLine::Line> LaserLine::line_at(const Carriage& at, int sample
   Surface worn_there;
   const double light = reflected(surfaces_.at(hit.line, hit.label, point, worn_there), hit.normal,
                                  (at.laser - point) / distance, (at.eye - point).normalized());
-  return Line{sample,
-              across(*pixel),
-              (to_camera_ * (point - at.eye)).z(),
-              setup_.settings.power * light * reference_ / distance,
-              point,
-              hit.normal,
-              hit.label,
-              light > 0.0};
+  Line line;
+  line.sample = sample;
+  line.across = across(*pixel);
+  line.depth = (to_camera_ * (point - at.eye)).z();
+  line.signal = setup_.settings.power * light * reference_ / distance;
+  line.point = point;
+  line.normal = hit.normal;
+  line.label = hit.label;
+  line.visible = light > 0.0;
+  return line;
 }
 
 /// Between a ray and its neighbour that does not meet the same surface, each surface goes on to its edge. Which samples

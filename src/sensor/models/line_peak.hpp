@@ -1,4 +1,5 @@
-/// Finds the position of a laser line in one column of the image with sub-pixel accuracy.
+/// Finds the position of a laser line in one column of the image with sub-pixel accuracy. The decoded form of the laser
+/// line sensor uses it; the error of the analytic form follows from the same estimator.
 #pragma once
 
 #include <cstddef>

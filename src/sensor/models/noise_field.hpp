@@ -1,5 +1,6 @@
 /// Normally distributed noise over an image with correlated neighbours, like the errors of a window matcher:
-/// overlapping windows share the noise of their common pixels.
+/// overlapping windows share the noise of their common pixels. The analytic form of the stereo model adds it to
+/// disparities.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,4 +1,5 @@
-/// Converts vectors and poses between the library's types and Bullet's, without changing the scale.
+/// Converts vectors and poses between the library's types and Bullet's, without changing the scale. The scale in which
+/// Bullet simulates small parts is applied by the callers (world.hpp).
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

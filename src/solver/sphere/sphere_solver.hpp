@@ -1,5 +1,6 @@
 /// Makes the default solver `sphere` on the CPU: surface samples of one part are tested against the distance field of
-/// the other, and sub-stepped soft contacts are solved.
+/// the other, and sub-stepped soft contacts are solved. The passes are in passes/, and the GPU form is in
+/// solver/sphere_gl.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"

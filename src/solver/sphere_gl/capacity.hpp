@@ -1,5 +1,5 @@
 /// Determines how many bodies a world on the device may have: a work group of the device must be able to hold all of
-/// them.
+/// them. Larger worlds run on the CPU.
 #pragma once
 
 #include "bin_scenes/gl/device.hpp"

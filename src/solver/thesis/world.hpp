@@ -1,4 +1,5 @@
 /// One world as the solver `thesis` stores it between two advances: shapes, present bodies, and their motion.
+/// passes.hpp simulates it on a device, and twin.hpp simulates it on the CPU.
 #pragma once
 
 #include "bin_scenes/part/mass_properties.hpp"

@@ -1,4 +1,5 @@
-/// Normal cones: includes shaders/shared/sphere/cone.h as C++ and provides the functions that it requires.
+/// Normal cones: includes shaders/shared/sphere/cone.h as C++ and provides the functions that it requires. A contact
+/// may press only along a direction of the cone of its feature.
 #pragma once
 
 #include "solver/sphere/shared_code.hpp"

@@ -1,5 +1,5 @@
 /// Contacts at sharp edges: includes shaders/shared/sphere/edge.h and crease.h as C++ and provides the functions that
-/// they require.
+/// they require. slide.hpp uses them to find the contact of an edge.
 #pragma once
 
 #include "solver/sphere/shapes/contact_samples.hpp"

@@ -1,4 +1,5 @@
-/// The friction of eight contacts at once: against sliding, and of a contact patch against rotation.
+/// The friction of eight contacts at once: against sliding, and of a contact patch against rotation. The arithmetic
+/// itself is shared with the GPU form (shaders/shared/sphere).
 #pragma once
 
 #include "solver/sphere/passes/contact_rows.hpp"

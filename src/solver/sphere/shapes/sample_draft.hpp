@@ -1,4 +1,5 @@
 /// A draft of the samples of a part: nodes and pieces of edges in model axes, before they are sorted into clusters.
+/// contact_samples.hpp completes it with samples of faces.
 #pragma once
 
 #include "solver/sphere/shapes/contact_samples.hpp"

@@ -186,7 +186,7 @@ std::vector<Fold> folds_of(const Mesh& mesh, double angle) {
       next = first + 1;
       while (next < last[a] && sides[next].b == sides[first].b) ++next;
       const std::uint32_t b = sides[first].b;
-      Fold fold{a, b, {}, false, -1.0, true};
+      Fold fold{a, b};
       if (next - first == 2) {
         const std::size_t f0 = sides[first].face, f1 = sides[first + 1].face;
         fold.closed = true;

@@ -1,4 +1,5 @@
 /// The sharp convex edges of a mesh, with the normal cone of each: the directions in which contacts may press on it.
+/// Samples are placed on them, because parts touch there first.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
@@ -12,11 +13,11 @@ namespace bin_scenes::sphere {
 
 /// An edge of the mesh and how its faces meet there.
 struct Fold {
-  std::uint32_t a, b;                ///< a < b
-  std::array<std::size_t, 2> faces;  ///< the two faces of the edge, if there are two, as in a closed mesh
-  bool closed;
-  double cosine;  ///< cosine of the angle between the normals; -1 if there are not two faces
-  bool convex;
+  std::uint32_t a, b;                     ///< a < b
+  std::array<std::size_t, 2> faces = {};  ///< the two faces of the edge, if there are two, as in a closed mesh
+  bool closed = false;
+  double cosine = -1.0;  ///< cosine of the angle between the normals; -1 if there are not two faces
+  bool convex = true;
 };
 
 /// All edges over which the surface bends by more than `angle` (rad), in order of (a, b).
