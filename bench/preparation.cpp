@@ -1,6 +1,6 @@
 /// What a part costs before the first step: loading, mass, and the shapes that a solver asks for; from nothing (cold)
 /// and from the disk cache (warm). Each run is a process of its own, as a user's is.
-#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/core/cache.hpp"
 #include "bin_scenes/pour/pour.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"

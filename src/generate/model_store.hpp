@@ -1,5 +1,5 @@
 /// Keeps the models of requests in memory between requests, so that a model is loaded once. The disk cache
-/// (part/cache.hpp) works below it.
+/// (core/cache.hpp) works below it.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

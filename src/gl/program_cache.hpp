@@ -1,6 +1,5 @@
-/// Stores linked shader programs on the disk under a key of driver and source. If the cache cannot be written, or an
-/// entry is damaged or refused by the driver, programs are compiled as without a cache. BIN_SCENES_CACHE=off switches
-/// it off.
+/// Stores linked shader programs in the disk cache (core/cache.hpp) under a key of driver and source. If the driver
+/// refuses an entry, the program is compiled as without a cache.
 #pragma once
 
 #include <string>

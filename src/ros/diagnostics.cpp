@@ -1,6 +1,6 @@
 #include "diagnostics.hpp"
 
-#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/core/cache.hpp"
 
 #include <unistd.h>
 

@@ -6,7 +6,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/gl/device.hpp"
-#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/core/cache.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"

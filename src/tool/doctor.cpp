@@ -4,7 +4,7 @@
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/core/cache.hpp"
 #include "bin_scenes/pour/pour.hpp"
 #include "solver/device_choice.hpp"
 #include "tool/commands.hpp"

@@ -1,6 +1,6 @@
 /// A cache file: the first byte chooses what it should hold. Even numbers give the contents a right header, so that the
 /// readers behind it see them; odd ones are the whole file.
-#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/core/cache.hpp"
 #include "fuzz.hpp"
 #include "part/part_bytes.hpp"
 

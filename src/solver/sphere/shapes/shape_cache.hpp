@@ -1,6 +1,6 @@
 /// Keeps the shapes of the parts that a solver has used, so that many worlds share one shape. A shape is made on first
 /// use and stays for the life of the cache. The cache on the disk, which survives the program, is
-/// bin_scenes/part/cache.hpp.
+/// bin_scenes/core/cache.hpp.
 #pragma once
 
 #include "bin_scenes/core/profile.hpp"

@@ -1,4 +1,4 @@
-#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/core/cache.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/temporary.hpp"
@@ -105,18 +105,18 @@ std::optional<CachedBytes> Cache::read(const std::string& kind, const std::strin
 void Cache::write(const std::string& kind, const std::string& key, const Bytes& bytes) const {
   const std::string folder = directory();
   if (folder.empty()) return;
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) return;
-
   BIN_SCENES_ASSERT(!kind.empty() && !key.empty());
   const std::string name = file_name(kind, key);
-  const std::string target = (fs::path(folder) / name).string();
+  const fs::path target = fs::path(folder) / name;
+  std::error_code failed;
+  fs::create_directories(target.parent_path(), failed);
+  if (failed) return;
+
   // Each writer works under a name of its own; a cache that loses power may lose what it holds, so nothing waits for
   // it.
   static std::once_flag once;
   std::call_once(once, [&] { remove_leftovers(folder); });
-  Temporary file(target);
+  Temporary file(target.string());
   Header header;
   header.size = bytes.size();
   digest_of(name, bytes.data(), bytes.size()).copy(header.digest, sizeof header.digest);

@@ -1,7 +1,8 @@
-/// Disk cache of prepared parts in $XDG_CACHE_HOME/bin_scenes (otherwise ~/.cache/bin_scenes). The key of an entry
-/// consists of contents, parameters and format version. Files are written under a temporary name and renamed, so that
-/// two processes do not disturb each other. A checksum is tested on reading, and a damaged entry is made again. If the
-/// cache cannot be written, this is not an error: parts are then prepared in each run.
+/// Disk cache of prepared parts and of compiled shader programs in $XDG_CACHE_HOME/bin_scenes (otherwise
+/// ~/.cache/bin_scenes). The key of an entry consists of contents, parameters and format version. Files are written
+/// under a temporary name and renamed, so that two processes do not disturb each other. A checksum is tested on reading,
+/// and a damaged entry is made again. If the cache cannot be written, this is not an error: parts are then prepared, and
+/// shaders compiled, in each run.
 #pragma once
 
 #include "bin_scenes/core/sha256.hpp"
@@ -44,7 +45,8 @@ class Cache {
   static Cache& global();  ///< the environment variable BIN_SCENES_CACHE=off switches it off
 
   std::string directory() const;
-  /// Returns the contents that are stored under `key`; none if the file is missing or damaged.
+  /// Returns the contents that are stored under `key`; none if the file is missing or damaged. The file's name begins
+  /// with `kind`, in which a slash separates folders.
   std::optional<CachedBytes> read(const std::string& kind, const std::string& key) const;
   /// Stores contents under `key`. Failure is not reported.
   void write(const std::string& kind, const std::string& key, const Bytes& bytes) const;

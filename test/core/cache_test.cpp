@@ -1,4 +1,4 @@
-#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/core/cache.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
