@@ -1,10 +1,10 @@
 /// Sweeps upright boxes along strips, then tests oriented boxes. GPU form: shaders/sphere/find_pairs.comp.
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/contact.hpp"
+#include "core/in_parallel.hpp"
 #include "solver/sphere/invariants.hpp"
 #include "solver/sphere/passes/counting_sort.hpp"
 #include "solver/sphere/passes/lanes.hpp"
-#include "solver/sphere/passes/parallel.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
@@ -145,7 +145,7 @@ void for_each_piece(std::size_t count, std::vector<Pair>& found, const Work& wor
       work(begin, std::min(begin + entries_between_stops, last), of_piece[k]);
     }
   };
-  for_each_in_parallel(pieces, piece);
+  in_parallel(pieces, piece);
   for (std::size_t k = 0; k < pieces; ++k) found.insert(found.end(), of_piece[k].begin(), of_piece[k].end());
 }
 

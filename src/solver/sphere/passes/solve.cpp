@@ -2,13 +2,13 @@
 /// touch each other at a time. What a contact is there stands in shaders/shared/sphere/contact.h; GLSL: solve.comp,
 /// solve_body.h, solve_manifold.h.
 #include "bin_scenes/core/cancel.hpp"
+#include "core/in_parallel.hpp"
 #include "solver/sphere/invariants.hpp"
 #include "solver/sphere/passes/blocks.hpp"
 #include "solver/sphere/passes/contact_rows.hpp"
 #include "solver/sphere/passes/friction.hpp"
 #include "solver/sphere/passes/gyroscope.hpp"
 #include "solver/sphere/passes/held.hpp"
-#include "solver/sphere/passes/parallel.hpp"
 #include "solver/sphere/passes/restitution.hpp"
 #include "solver/sphere/passes/team.hpp"
 #include "solver/sphere/passes/turning_bin.hpp"
@@ -386,7 +386,7 @@ void solve(World& world) {
   BIN_SCENES_ASSERT(colors_share_no_body(world));
   blocks.make(world);
   Counts counts;
-  for_each_in_parallel(blocks.count(), [&](std::size_t block) { solve_block(world, blocks, block, counts); });
+  in_parallel(blocks.count(), [&](std::size_t block) { solve_block(world, blocks, block, counts); });
   BIN_SCENES_ASSERT(counts.falling <= world.bodies.size());
   world.counters.free_steps += counts.falling;
   world.deepest.unresolved_impacts += counts.unresolved;
