@@ -4,6 +4,7 @@
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "core/data_files.hpp"
 #include "core/read_file.hpp"
 #include "dataset/whole_folders.hpp"
 
@@ -65,13 +66,8 @@ Outcome call(const std::vector<std::string>& words) {
 }
 
 std::string script() {
-  std::vector<fs::path> places = {BIN_SCENES_SLURM_SOURCE_DIR, BIN_SCENES_SLURM_INSTALL_DIR};
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (const char* up : {"..", "../.."}) places.push_back(program.parent_path() / up / "share/bin_scenes/slurm");
-  for (const fs::path& place : places)
-    if (fs::is_regular_file(place / "dataset.sbatch", ignored)) return (place / "dataset.sbatch").string();
-  throw environment_error("the script of the array job is missing", "dataset.sbatch", "install bin_scenes anew");
+  return first_place(data_places("scripts/slurm/dataset.sbatch"), "the script of the array job",
+                     "install bin_scenes anew");
 }
 
 /// State -> number of tasks that Slurm still knows; none: the job is over.

@@ -3,7 +3,7 @@
 #include "bin_scenes/core/assertion.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "core/share_folders.hpp"
+#include "core/data_files.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,20 +17,9 @@ namespace bin_scenes::gl {
 namespace fs = std::filesystem;
 
 std::string shader_directory() {
-  std::vector<fs::path> places;
-  if (const char* set = std::getenv("BIN_SCENES_SHADERS"); set && *set) places = {set};
-  if (places.empty()) {
-    places = {BIN_SCENES_SHADER_SOURCE_DIR, BIN_SCENES_SHADER_INSTALL_DIR};
-    for (const fs::path& share : share_folders()) places.push_back(share / "shaders");
-  }
-  std::string tried;
-  for (const fs::path& place : places) {
-    std::error_code failed;
-    if (fs::is_directory(place / "shared", failed)) return place.string();
-    tried += "\n  " + place.string();
-  }
-  throw environment_error("no shader directory; looked for:" + tried, "shaders",
-                          "set BIN_SCENES_SHADERS to the folder 'shaders' of bin_scenes");
+  const char* const set = std::getenv("BIN_SCENES_SHADERS");
+  return first_place(set && *set ? std::vector<fs::path>{set} : data_places("shaders"), "shaders",
+                     "set BIN_SCENES_SHADERS to the folder 'shaders' of bin_scenes");
 }
 
 namespace {

@@ -1,8 +1,7 @@
 /// From the words of a command line to what may follow: options, keys of requests level by level, presets, files.
 #include "tool/completion.hpp"
 
-#include "bin_scenes/config/materials.hpp"
-#include "bin_scenes/config/sensor_presets.hpp"
+#include "bin_scenes/config/presets.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "config/reference.hpp"
 #include "config/values.hpp"

@@ -1,6 +1,6 @@
 /// The command `new`: a first request for a part, with the bin that fits, and its first scene.
 #include "bin_scenes/config/request_reader.hpp"
-#include "bin_scenes/config/sensor_presets.hpp"
+#include "bin_scenes/config/presets.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/part_model.hpp"

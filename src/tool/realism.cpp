@@ -1,7 +1,7 @@
 /// The command `realism`: makes the scenes of a request in a temporary folder, and has them compared with a real
 /// camera's files by bench/realism, which is installed with the package.
 #include "bin_scenes/core/error.hpp"
-#include "core/share_folders.hpp"
+#include "core/data_files.hpp"
 #include "tool/commands.hpp"
 
 #include <sys/wait.h>
@@ -57,12 +57,7 @@ int run_program(std::vector<std::string> words, bool to_errors) {
 }
 
 std::string script() {
-  std::vector<fs::path> places = {fs::path(BIN_SCENES_BENCH_SOURCE_DIR)};
-  for (const fs::path& share : share_folders()) places.push_back(share);
-  std::error_code ignored;
-  for (const fs::path& place : places)
-    if (fs::is_regular_file(place / "realism", ignored)) return (place / "realism").string();
-  throw environment_error("the script of the comparison is missing", "realism", "install bin_scenes anew");
+  return first_place(data_places("bench/realism"), "the script of the comparison", "install bin_scenes anew");
 }
 
 std::vector<std::string> comparison(const RealismOptions& options, const std::string& scenes) {

@@ -1,4 +1,4 @@
-#include "bin_scenes/config/sensor_presets.hpp"
+#include "bin_scenes/config/presets.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/metrics.hpp"
 #include "page/sensor_plot.hpp"

@@ -1,4 +1,4 @@
-#include "bin_scenes/config/gripper_presets.hpp"
+#include "bin_scenes/config/presets.hpp"
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "config_fixture.hpp"

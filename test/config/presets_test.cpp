@@ -1,6 +1,5 @@
 /// Values by name: presets of the solver and of sensors, the pose of another sensor, materials.
-#include "bin_scenes/config/materials.hpp"
-#include "bin_scenes/config/sensor_presets.hpp"
+#include "bin_scenes/config/presets.hpp"
 #include "config/config_fixture.hpp"
 
 #include <cstdlib>
