@@ -1,4 +1,5 @@
-/// Loads the arrays to the device and dispatches the passes of shaders/thesis in order. CPU form: twin.cpp.
+/// Loads the arrays to the device and dispatches the passes of shaders/thesis in order. CPU form:
+/// test/solver/thesis/twin.cpp.
 #include "passes.hpp"
 
 #include <cstddef>

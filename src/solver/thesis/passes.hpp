@@ -1,5 +1,5 @@
 /// The passes of one step of the solver `thesis` on the device. A pass has the same name everywhere:
-/// shaders/thesis/<name>.comp, its method here, its timer, and its CPU twin (twin.hpp).
+/// shaders/thesis/<name>.comp, its method here, its timer, and its CPU twin (test/solver/thesis/twin.hpp).
 #pragma once
 
 #include "bin_scenes/gl/prefix_sum.hpp"

@@ -1,7 +1,5 @@
 #include "world.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 
 namespace bin_scenes::thesis {
@@ -26,25 +24,6 @@ Shape make_shape(const std::vector<Sphere>& spheres, const MassProperties& mass)
     shape.radius = std::max(shape.radius, shape.spheres.back().center.norm() + sphere.radius);
   }
   return shape;
-}
-
-Shape make_shape(const std::vector<Sphere>& spheres) {
-  MassProperties mass;
-  mass.volume = 1.0;
-  for (const Sphere& sphere : spheres) mass.center += sphere.center / static_cast<double>(spheres.size());
-  // Points on a line have no inertia about it: a tenth of a sphere's own keeps every axis turnable.
-  const double own = (spheres.size() == 1 ? 0.4 : 0.04) * spheres.front().radius * spheres.front().radius;
-  mass.inertia = own * Mat3::Identity();
-  for (const Sphere& sphere : spheres) {
-    const Vec3 r = sphere.center - mass.center;
-    mass.inertia += (r.squaredNorm() * Mat3::Identity() - r * r.transpose()) / static_cast<double>(spheres.size());
-  }
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(mass.inertia);
-  mass.principal = solver.eigenvalues();
-  Mat3 axes = solver.eigenvectors();
-  if (axes.determinant() < 0.0) axes.col(2) *= -1.0;
-  mass.principal_axes = Quat(axes);
-  return make_shape(spheres, mass);
 }
 
 std::vector<gpu::ThesisSheet> bin_sheets(const Bin& bin, double wall_height, double radius, double tightness) {

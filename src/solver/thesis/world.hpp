@@ -27,8 +27,6 @@ struct Shape {
 
 /// Makes a shape from given spheres (model frame) with the mass properties of the true mesh.
 Shape make_shape(const std::vector<Sphere>& spheres, const MassProperties& mass);
-/// Makes a shape whose spheres are points of equal mass (equation 2.31 of the thesis); a single sphere counts as solid.
-Shape make_shape(const std::vector<Sphere>& spheres);
 
 struct World {
   std::vector<Shape> shapes;  ///< by BodyDef::part

@@ -4,6 +4,8 @@
 #include "bin_scenes/solver/thesis_solver.hpp"
 #include "solver/thesis/world.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <cstring>
 #include <vector>
 
@@ -41,6 +43,26 @@ inline std::vector<Sphere> block(int nx, int ny, int nz, double radius, double p
 }
 inline std::vector<Sphere> cube(int n, double radius, double tightness = 1.0) {
   return block(n, n, n, radius, 2.0 * radius * tightness);
+}
+
+/// A shape whose spheres are points of equal mass (equation 2.31 of the thesis); a single sphere counts as solid.
+inline Shape make_shape(const std::vector<Sphere>& spheres) {
+  MassProperties mass;
+  mass.volume = 1.0;
+  for (const Sphere& sphere : spheres) mass.center += sphere.center / static_cast<double>(spheres.size());
+  // Points on a line have no inertia about it: a tenth of a sphere's own keeps every axis turnable.
+  const double own = (spheres.size() == 1 ? 0.4 : 0.04) * spheres.front().radius * spheres.front().radius;
+  mass.inertia = own * Mat3::Identity();
+  for (const Sphere& sphere : spheres) {
+    const Vec3 r = sphere.center - mass.center;
+    mass.inertia += (r.squaredNorm() * Mat3::Identity() - r * r.transpose()) / static_cast<double>(spheres.size());
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(mass.inertia);
+  mass.principal = solver.eigenvalues();
+  Mat3 axes = solver.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(2) *= -1.0;
+  mass.principal_axes = Quat(axes);
+  return make_shape(spheres, mass);
 }
 
 struct WorldBuilder {

@@ -1,5 +1,5 @@
 // Each pass against its CPU twin, from the same input: whole numbers exactly, floats to a few roundings.
-#include "solver/thesis/twin.hpp"
+#include "twin.hpp"
 #include "scenes.hpp"
 #include "solver/thesis/passes.hpp"
 

@@ -2,7 +2,7 @@
 /// the tests compare the passes with them. Each twin works on Memory as its pass works on the buffers.
 #pragma once
 
-#include "memory.hpp"
+#include "solver/thesis/memory.hpp"
 
 namespace bin_scenes::thesis::twin {
 
