@@ -4,7 +4,6 @@
 
 #include "bin_scenes/light/surfaces.hpp"
 #include "bin_scenes/raster/view.hpp"
-#include "bin_scenes/scene/sensor_models.hpp"
 #include "bin_scenes/scene/validity.hpp"
 
 #include <cstddef>
@@ -70,13 +69,5 @@ Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point);
 /// Ray from there in a direction, and what it hits: a step of a path of light.
 Ray ray_along(const Vec3& surface, const Vec3& normal, const Vec3& direction);
 SeenPoint point_of(const Ray& ray, const Hit& hit);
-
-/// The gain of an exposure: a white surface's signal is gain * reflected / distance^2. With automatic exposure, a white
-/// matte surface parallel to the image, at the median distance of all points that are lit, gives the signal
-/// ImagerSettings::exposure. Noise of triangulation then grows with the square of the range and not faster.
-/// @param depths   m along the camera's axis, of the points of `lit`
-/// @param light_z  m, depth of the light itself
-double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const std::vector<double>& depths,
-               double light_z);
 
 }  // namespace bin_scenes

@@ -29,4 +29,19 @@ void Imager::expose(float* signals, std::size_t count, Random& random) const {
   }
 }
 
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const std::vector<double>& depths,
+               double light_z) {
+  if (imager.reference_distance > 0.0) return imager.exposure * imager.reference_distance * imager.reference_distance;
+  std::vector<double> losses;  // distance^2 / cosine
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    if (lit[i].code != Validity::valid) continue;
+    const double distance = lit[i].distance;
+    losses.push_back(distance * distance * distance / std::max(std::abs(depths[i] - light_z), 1e-6));
+  }
+  if (losses.empty()) return imager.exposure;
+  const auto median = losses.begin() + static_cast<std::ptrdiff_t>(losses.size() / 2);
+  std::nth_element(losses.begin(), median, losses.end());
+  return imager.exposure * *median;
+}
+
 }  // namespace bin_scenes

@@ -4,8 +4,10 @@
 
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/scene/sensor_models.hpp"
+#include "light/illumination.hpp"
 
 #include <cstddef>
+#include <vector>
 
 namespace bin_scenes {
 
@@ -25,5 +27,13 @@ class Imager {
   double rounding_;             ///< variance of the converter's steps
   bool noise_;
 };
+
+/// The gain of an exposure: a white surface's signal is gain * reflected / distance^2. With automatic exposure, a white
+/// matte surface parallel to the image, at the median distance of all points that are lit, gives the signal
+/// ImagerSettings::exposure. Noise of triangulation then grows with the square of the range and not faster.
+/// @param depths   m along the camera's axis, of the points of `lit`
+/// @param light_z  m, depth of the light itself
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const std::vector<double>& depths,
+               double light_z);
 
 }  // namespace bin_scenes

@@ -4,6 +4,7 @@
 
 #include "core/in_parallel.hpp"
 #include "sensor/models/disparity_filters.hpp"
+#include "sensor/models/imager.hpp"
 #include "sensor/models/noise_field.hpp"
 
 #include <algorithm>

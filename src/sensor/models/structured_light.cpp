@@ -3,6 +3,7 @@
 #include "sensor/models/structured_light.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/models/imager.hpp"
 #include "sensor/models/structured_light_strip.hpp"
 
 #include <algorithm>
