@@ -35,7 +35,6 @@
 
 #define THESIS_NO_KEY 0xffffffffu  // empty slot of the neighbour table
 #define THESIS_NODE 0x80000000u    // marks a lattice node of a sheet instead of a stored sphere
-#define THESIS_NO_CELL 0xffffffffu
 
 // Bits of Status.overflow, one per stage.
 #define THESIS_CONTACT_OVERFLOW 1u

@@ -6,7 +6,6 @@
 #define Plane SpherePlane
 
 float radius_of(Samples samples) { return samples.size.x; }
-float spacing_of(Samples samples) { return samples.size.y; }
 float face_spacing_of(Samples samples) { return samples.size.z; }
 float sag_of(Samples samples) { return samples.size.w; }
 vec3 node_at(Samples samples, uint i) { return nodes[samples.nodes.x + i].place; }

@@ -145,7 +145,6 @@ void check_units(const BopSet& set, const nlohmann::json& info, const fs::path& 
 
 BopSet read_bop_set(const std::string& root, const BopReadOptions& options) {
   BopSet set;
-  set.root = root;
   std::vector<fs::path> scenes;
   find_scenes(root, 3, scenes);
   if (scenes.empty())

@@ -44,7 +44,6 @@ struct BopReadOptions {
 };
 
 struct BopSet {
-  std::filesystem::path root;
   std::map<int, std::string> models;  ///< path of the mesh by object, of those that scenes show
   bool world_stated = true;    ///< false: images have no cam_R_w2c, and up is taken to be against the camera's axis
   std::vector<BopView> views;  ///< in order of scene and image

@@ -138,12 +138,6 @@ std::size_t Plan::take(std::size_t heap, std::size_t attempt, std::size_t step) 
   return static_cast<std::size_t>(std::llround(std::max(0.0, state->take->number(random))));
 }
 
-std::vector<std::pair<std::string, std::string>> Plan::drawn() const {
-  std::vector<std::pair<std::string, std::string>> all;
-  for (const config::Draw& draw : state->draws) all.emplace_back(draw.path, draw.text);
-  return all;
-}
-
 bool is_of(const PlanObject& object, const PartLine& line) {
   return object.sha256 == line.sha256 && object.unit == line.unit && object.scale == line.scale &&
          object.thickness == line.thickness && object.tessellation.chord == line.tessellation.chord &&

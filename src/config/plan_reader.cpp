@@ -127,8 +127,7 @@ class PlanFile {
       if (!seen.insert(path).second) complain("is drawn twice", key, "keep one of them");
       if (path == "seed" || path == "scenes" || path == "first") complain("belongs to the plan", key, "remove it");
       const auto distribution = config::read_distribution(item.second, key, source_);
-      if (distribution)
-        state_->draws.push_back({path, source_.where(key), config::flow_text(item.second), *distribution});
+      if (distribution) state_->draws.push_back({path, source_.where(key), *distribution});
     }
   }
 

@@ -16,7 +16,7 @@ namespace bin_scenes {
 namespace config {
 
 struct Draw {
-  std::string path, where, text;  ///< key of the request; its line; as the plan writes it
+  std::string path, where;  ///< key of the request; its line
   Distribution distribution;
 };
 

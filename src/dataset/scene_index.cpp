@@ -131,7 +131,6 @@ std::set<std::size_t> SceneIndex::heaps() const {
 IndexCounts SceneIndex::counts() const {
   const auto number = [&](const char* sql) { return std::stoul("0" + rows(sql).at(0).at(0)); };
   IndexCounts counts;
-  counts.accepted = number("select count(*) from heaps where state = 'done'");
   counts.failed = number("select count(*) from heaps where state = 'failed'");
   counts.scenes = number("select count(*) from scenes");
   counts.rejected = number("select count(*) from rejected");

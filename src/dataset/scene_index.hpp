@@ -16,7 +16,7 @@ struct sqlite3;
 namespace bin_scenes {
 
 struct IndexCounts {
-  std::size_t accepted = 0, failed = 0;       ///< heaps
+  std::size_t failed = 0;                     ///< heaps
   std::size_t scenes = 0, rejected = 0;       ///< scenes that are there; attempts that were set apart
   std::size_t not_poured = 0, asked_for = 0;  ///< parts of the first scene of each heap
   double wall_s = 0.0;    ///< wall-clock time of the workers (s), over all heaps whose time is known

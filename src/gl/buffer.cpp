@@ -184,12 +184,6 @@ void ReadBack::request(const std::vector<Range>& ranges) {
   glFlush();
 }
 
-bool ReadBack::ready() const {
-  if (!fence_) return false;
-  const GLenum state = glClientWaitSync(static_cast<GLsync>(fence_), 0, 0);
-  return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
-}
-
 const void* ReadBack::wait() {
   if (fence_) {
     constexpr GLuint64 second = 1000000000;

@@ -75,7 +75,6 @@ Program Program::link(const std::string& name, const std::vector<std::pair<unsig
   }
 
   Program program;
-  program.name_ = name;
   program.id_ = load_program_binary(name, key);
   program.from_cache_ = program.id_ != 0;
   if (!program.id_) {
@@ -109,7 +108,6 @@ Program& Program::operator=(Program&& other) noexcept {
   std::swap(id_, other.id_);
   std::swap(group_size_, other.group_size_);
   std::swap(from_cache_, other.from_cache_);
-  std::swap(name_, other.name_);
   std::swap(locations_, other.locations_);
   return *this;
 }

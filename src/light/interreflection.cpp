@@ -143,7 +143,6 @@ void add_paths(const Lamp& lamp, const Batch& batch, const Batch* before, std::v
     const Vec3& direction = batch.samples[i].direction;
     Path path;
     path.column = lit.column;
-    path.row = lit.row;
     path.weight = batch.samples[i].factor * lit.reflected / (lit.distance * lit.distance);
     path.slope = carried_back(lamp.slope(met.position, lit.column), met, direction);
     // A cone about the ray covers as much of the plane as a step beside the ray's origin does.

@@ -39,9 +39,9 @@ class ProjectorLamp : public Lamp {
 };
 
 struct Path {
-  double column, row;  ///< position in the projector's image
-  double weight;       ///< white light that reaches the eye: Lit::reflected / distance^2 as of direct light
-  double spread;       ///< columns that the sample stands for, from one side to the other
+  double column;  ///< position in the projector's image
+  double weight;  ///< white light that reaches the eye: Lit::reflected / distance^2 as of direct light
+  double spread;  ///< columns that the sample stands for, from one side to the other
   Vec3 slope;     ///< 1/m, gradient of the column when the point moves while the direction and all planes stay the same
   double length;  ///< m, from the lamp via the other surfaces to the point
   Vec3 longer;    ///< gradient of the path length under the same motion

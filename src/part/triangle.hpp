@@ -13,8 +13,6 @@ namespace bin_scenes {
 struct PreparedTriangle {
   Vec3 a, ab, ac, normal;
   double ab_ab, ab_ac, ac_ac;
-  Vec3 center;  // of a sphere of radius `reach` around the triangle
-  double reach;
 
   PreparedTriangle(const Vec3& a_, const Vec3& b, const Vec3& c)
       : a(a_), ab(b - a_), ac(c - a_), ab_ab(ab.dot(ab)), ab_ac(ab.dot(ac)), ac_ac(ac.dot(ac)) {
@@ -22,8 +20,6 @@ struct PreparedTriangle {
     const double length = normal.norm();
     // A sliver has no reliable normal; zero marks this.
     normal = length > 1e-9 * longest_squared() ? Vec3(normal / length) : Vec3::Zero();
-    center = (a + b + c) / 3;
-    reach = std::sqrt(std::max({(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()}));
   }
 
   Vec3 nearest(const Vec3& p) const {

@@ -27,7 +27,6 @@ class ConvexCell {
   };
   const std::vector<Vec3>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
-  const std::vector<int>& loops() const { return loops_; }  ///< vertex indices of all faces
   /// The vertices of faces for which `wanted` is not 0, and possibly further ones.
   std::vector<Edge> edges(const std::vector<char>& wanted) const;
   /// Vertex with the smallest coordinate along `direction`.

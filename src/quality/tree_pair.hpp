@@ -178,9 +178,4 @@ class NodePair {
   float margin_ = 0.0f;
 };
 
-/// Shortest distance of two boxes.
-inline double box_distance(const Aabb& a, const Aabb& b) {
-  return (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(0.0).norm();
-}
-
 }  // namespace bin_scenes

@@ -59,12 +59,6 @@ std::array<float, 3> fitted_normal(const std::vector<std::array<float, 3>>& poin
 
 }  // namespace
 
-std::array<float, 3> point_at(const RangeImage& image, int column, int row) {
-  const auto x = static_cast<std::size_t>(column), y = static_cast<std::size_t>(row);
-  if (!image.points.empty()) return image.points[y * static_cast<std::size_t>(image.width) + x];
-  return on_ray(image, lens_of(image.sensor), x, y);
-}
-
 std::vector<std::array<float, 3>> points_of(const RangeImage& image) {
   if (!image.points.empty()) return image.points;
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);

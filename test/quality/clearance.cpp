@@ -12,6 +12,11 @@ namespace {
 
 constexpr double touching = 1e-9;  // relative to the smaller diagonal: lengths that rounding makes
 
+/// Shortest distance of two boxes.
+double box_distance(const Aabb& a, const Aabb& b) {
+  return (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(0.0).norm();
+}
+
 /// Squared distance of two segments (Ericson 2005, "Real-Time Collision Detection", section 5.1.9).
 double segment_distance2(const Vec3& p, const Vec3& u, const Vec3& q, const Vec3& v) {
   const auto clamp = [](double x) { return std::min(1.0, std::max(0.0, x)); };

@@ -28,8 +28,9 @@ TEST(Resolve, PointsFallBackOnTheirPixels) {
     image.width = 64;
     image.height = 48;
     image.depth.assign(64 * 48, 0.7f);
+    const auto points = points_of(image);
     for (const auto& [column, row] : {std::pair{0, 0}, std::pair{63, 47}, std::pair{20, 31}}) {
-      const auto [x, y, z] = point_at(image, column, row);
+      const auto [x, y, z] = points[row * 64 + column];
       EXPECT_NEAR(pixel(image.sensor, Vec3(x, y, z)).x(), column, 1e-4);
       EXPECT_NEAR(pixel(image.sensor, Vec3(x, y, z)).y(), row, 1e-4);
       EXPECT_FLOAT_EQ(z, 0.7f);

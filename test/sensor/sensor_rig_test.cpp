@@ -208,11 +208,12 @@ TEST(SensorRig, CloudLiesOnTheTrueSurface) {
   stage.place(stage.model(torus), pose);
   const RangeImage image = stage.render();
   const MeshQuery query(torus);
+  const auto points = points_of(image);
   int seen = 0;
   for (int row = 0; row < 240; ++row) {
     for (int column = 0; column < 320; ++column) {
       if (!image.label[row * 320 + column]) continue;
-      const auto [x, y, z] = point_at(image, column, row);
+      const auto [x, y, z] = points[row * 320 + column];
       ASSERT_LT(query.nearest(pose.inverse() * Vec3(x, y, z)).distance, 1e-5) << column << " " << row;
       ++seen;
     }

@@ -96,10 +96,6 @@ class Plan {
   /// Returns the number of parts to remove before step `step` >= 1 of a depletion.
   std::size_t take(std::size_t heap, std::size_t attempt, std::size_t step) const;
 
-  /// Returns a description of the draws for users: the path of each drawn key with its distribution as the plan writes
-  /// it.
-  std::vector<std::pair<std::string, std::string>> drawn() const;
-
   struct State;
   std::shared_ptr<const State> state;
 };

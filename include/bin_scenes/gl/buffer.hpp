@@ -41,7 +41,6 @@ class Storage {
 
   std::size_t bytes() const { return bytes_; }
   unsigned id() const { return id_; }
-  const std::string& label() const { return label_; }
 
  private:
   std::string label_;
@@ -97,8 +96,7 @@ class Buffer {
   std::size_t count_ = 0;
 };
 
-/// Copies ranges of buffers to the host without waiting for the device: request() starts the copy, and ready() returns
-/// whether it has finished.
+/// Copies ranges of buffers to the host: request() starts the copy, and wait() waits for its end.
 class ReadBack {
  public:
   struct Range {
@@ -114,8 +112,6 @@ class ReadBack {
   void request(const Storage& source, std::size_t offset, std::size_t bytes) { request({{&source, offset, bytes}}); }
   /// Starts the copy. The ranges follow each other in the result; adjacent ranges of one buffer are one copy.
   void request(const std::vector<Range>& ranges);
-  bool pending() const { return fence_ != nullptr; }
-  bool ready() const;  ///< never waits
   const void* wait();  ///< waits if necessary; the data are valid until the next request()
   template <class T>
   const T& wait_as() {

@@ -39,7 +39,6 @@ class Program {
   void set(const char* uniform, unsigned value) const;
   void set(const char* uniform, float value) const;
 
-  const std::string& name() const { return name_; }  ///< file name without directory and extension
   unsigned id() const { return id_; }
   unsigned group_size() const { return group_size_; }  ///< invocations per group along x
   /// Whether the program was read from the disk instead of being compiled.
@@ -53,7 +52,6 @@ class Program {
   unsigned id_ = 0;
   unsigned group_size_ = 0;
   bool from_cache_ = false;
-  std::string name_;
   mutable std::map<std::string, int> locations_;
 };
 

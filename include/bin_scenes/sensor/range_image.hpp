@@ -58,10 +58,8 @@ struct RangeImage {
   std::vector<Silhouette> silhouettes;  ///< by part id: the pixels that are counted in `total`
 };
 
-/// Returns the measured point of a pixel in the optical frame (m); NaN where the depth is NaN.
-std::array<float, 3> point_at(const RangeImage& image, int column, int row);
-/// Returns the measured points of a whole image. It uses all cores, because removing the distortion of a lens is
-/// expensive.
+/// Returns the measured points of all pixels in the optical frame (m); NaN where the depth is NaN. It uses all cores,
+/// because removing the distortion of a lens is expensive.
 std::vector<std::array<float, 3>> points_of(const RangeImage& image);
 /// Returns unit normals of points_of(image) that point towards the camera. They are normals of planes through the
 /// points of neighbouring pixels, as drivers of real sensors compute them; for the model `ideal`, which measures

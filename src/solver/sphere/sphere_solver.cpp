@@ -24,7 +24,6 @@ using namespace sphere;
 /// A world with the shapes it points into and the frame of its poses.
 struct Slot {
   World world;
-  std::vector<std::size_t> part_of_shape;
   bool used = false;
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
 };

@@ -163,8 +163,6 @@ struct JawPair {
   std::uint32_t first = 0, second = 0;
   Vec3f axis = Vec3f::UnitX(), velocity = Vec3f::Zero();
   float force = 0, speed = 0, mass = 0;
-
-  bool has(std::uint32_t body) const { return body == first || body == second; }
 };
 
 /// A force that acts on a body beside gravity.

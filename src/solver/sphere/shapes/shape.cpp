@@ -139,7 +139,6 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell,
   shape.thickness = shape.wall = static_cast<float>(2.0 * mass.volume / mass.area);
   shape.diagonal = static_cast<float>(part.diagonal());
   shape.size = static_cast<float>(size_at_contacts(part));
-  shape.volume = static_cast<float>(mass.volume);
   shape.unit_inertia = (mass.inertia / mass.volume).cast<float>();
   const Aabb box = part.mesh().bounds();
   shape.box_center = (box.center() - mass.center).cast<float>();

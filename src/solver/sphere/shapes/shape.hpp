@@ -18,7 +18,6 @@ struct Shape {
   float size = 0;       ///< m that lengths at contacts follow from: the diagonal, at most 50 thicknesses
   float thickness = 0;  ///< 2 volume / area: of a sheet, and less than the width of anything thicker
   float wall = 0;       ///< m: of a slender rod its wall_thickness(), up to twice `thickness`; else `thickness`
-  float volume = 0;
   Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame
   std::vector<Flag> flags;                 ///< remarks for the user
 };
