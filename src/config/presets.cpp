@@ -1,3 +1,4 @@
+/// Finds, lists and reads the files of presets. All kinds share the code; a table states what distinguishes them.
 #include "bin_scenes/config/presets.hpp"
 
 #include "config/key_reader.hpp"

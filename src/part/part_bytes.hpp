@@ -3,8 +3,8 @@
 /// reading therefore guards only against running past the end.
 #pragma once
 
-#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/core/cache.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/part/convex_hulls.hpp"
 #include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/samples.hpp"

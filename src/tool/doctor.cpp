@@ -1,10 +1,10 @@
 /// Prints one line for each thing that the tool needs, with its remedy, and lets each solver drop a box. Exit code 3
 /// without OpenGL.
+#include "bin_scenes/core/cache.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/core/cache.hpp"
 #include "bin_scenes/pour/pour.hpp"
 #include "solver/device_choice.hpp"
 #include "tool/commands.hpp"

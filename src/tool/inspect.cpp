@@ -1,7 +1,7 @@
 /// The command `inspect`: what a model file is, its mass, holes, symmetries, and the error of each solver's shape, as
 /// text or JSON.
-#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/cache.hpp"
+#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "config/json_fields.hpp"

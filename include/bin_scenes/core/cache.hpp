@@ -1,7 +1,7 @@
 /// Disk cache of prepared parts and of compiled shader programs in $XDG_CACHE_HOME/bin_scenes (otherwise
 /// ~/.cache/bin_scenes). The key of an entry consists of contents, parameters and format version. Files are written
-/// under a temporary name and renamed, so that two processes do not disturb each other. A checksum is tested on reading,
-/// and a damaged entry is made again. If the cache cannot be written, this is not an error: parts are then prepared, and
+/// under a temporary name and renamed, so that two processes do not disturb each other. Reading tests a checksum,
+/// and a damaged entry is made again. If the cache cannot be written, that is no error: parts are then prepared, and
 /// shaders compiled, in each run.
 #pragma once
 
