@@ -1,8 +1,8 @@
 /// Labels of all images of a set: what they have in common is an error of the camera, what is left one of a part.
 #include "audit/auditor.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 namespace bin_scenes {
@@ -52,17 +52,13 @@ CameraError of_image(const LabelledImage& image, CameraError error, const std::a
 
 /// " cx +2.00 px" where it is not nothing.
 void add_term(std::string& text, const char* name, double value, const char* unit, double least) {
-  char term[60];
-  if (std::abs(value) < least) return;
-  std::snprintf(term, sizeof term, "%s %s %+.2f%s", text.empty() ? "" : ",", name, value, unit);
-  text += term;
+  if (std::abs(value) >= least) text += formatted("%s %s %+.2f%s", text.empty() ? "" : ",", name, value, unit);
 }
 
 std::string camera_text(const std::string& camera, const CameraError& error, std::size_t parts,
                         const std::array<double, 9>& k) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "K of the images of %s (fx %.6g, cx %.6g, cy %.6g) does not fit %zu masks, which say:", camera.c_str(),
+  const std::string text =
+      formatted("K of the images of %s (fx %.6g, cx %.6g, cy %.6g) does not fit %zu masks, which say:", camera.c_str(),
                 k[0], k[2], k[5], parts);
   std::string terms;
   add_term(terms, "cx", error.shift.x(), " px", 0.05);
@@ -76,14 +72,10 @@ std::string camera_text(const std::string& camera, const CameraError& error, std
 }
 
 std::string depth_text(const std::string& camera, const DepthError& error, std::size_t parts) {
-  char text[400];
   if (std::abs(error.distance - 1.0) < 0.1)
-    std::snprintf(text, sizeof text, "the depth images of %s hold distances from the camera, not depths along its axis",
-                  camera.c_str());
-  else
-    std::snprintf(text, sizeof text, "the depth images of %s do not fit %zu parts: %+.2f mm, %+.3f %% (depth_scale)",
-                  camera.c_str(), parts, error.offset, 100.0 * error.scale);
-  return text;
+    return "the depth images of " + camera + " hold distances from the camera, not depths along its axis";
+  return formatted("the depth images of %s do not fit %zu parts: %+.2f mm, %+.3f %% (depth_scale)", camera.c_str(),
+                   parts, error.offset, 100.0 * error.scale);
 }
 
 /// mm, standard deviation of the parts' depths about what they have in common: noise of the sensor that averaging over

@@ -3,9 +3,9 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/scene/report.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <tuple>
 
 namespace bin_scenes {
@@ -17,9 +17,7 @@ namespace {
 constexpr std::size_t most_listed = 20;
 
 std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return formatted("%.3g", value);
 }
 
 /// What is wrong with a part or an image, with the worst figure in units of its limit.
@@ -35,28 +33,19 @@ constexpr double score_of_strict = 100.0;  ///< what no part may exceed comes be
 /// The figures of one place in words, with signs where these are known.
 std::string figure_text(const AuditMeasure& measure, double value, const AuditFigures& figures,
                         const AuditPlace& place) {
-  char text[200];
   const auto image = figures.images.find(place.view);
   const bool labelled = image != figures.images.end();
   if (labelled && place.entry != AuditPlace::image) {
     const LabelFigures& part = image->second.parts.at(place.entry);
-    if (measure.key == figures.shift.key) {
-      std::snprintf(text, sizeof text, "mask shifted by (%+.2f, %+.2f) px", part.shift->x(), part.shift->y());
-      return text;
-    }
-    if (measure.key == figures.depth.key) {
-      std::snprintf(text, sizeof text, "depth %.2f mm %s the model", std::abs(*part.depth),
-                    *part.depth > 0.0 ? "behind" : "before");
-      return text;
-    }
+    if (measure.key == figures.shift.key)
+      return formatted("mask shifted by (%+.2f, %+.2f) px", part.shift->x(), part.shift->y());
+    if (measure.key == figures.depth.key)
+      return formatted("depth %.2f mm %s the model", std::abs(*part.depth), *part.depth > 0.0 ? "behind" : "before");
   } else if (labelled && measure.key == figures.camera.key) {
     const CameraError& error = image->second.camera;
-    std::snprintf(text, sizeof text, "all masks shifted by (%+.2f, %+.2f) px, up to %.2f px", error.shift.x(),
-                  error.shift.y(), value);
-    return text;
+    return formatted("all masks shifted by (%+.2f, %+.2f) px, up to %.2f px", error.shift.x(), error.shift.y(), value);
   } else if (labelled && measure.key == figures.depth_common.key) {
-    std::snprintf(text, sizeof text, "depth off by %+.2f mm", image->second.depth_offset);
-    return text;
+    return formatted("depth off by %+.2f mm", image->second.depth_offset);
   }
   if (measure.key == figures.mask.key || measure.key == figures.mask_visible.key)
     return std::string("IoU of ") + measure.key + " " + number_text(1.0 - value);

@@ -1,9 +1,9 @@
 #include "bop/layout.hpp"
 
 #include "bin_scenes/sensor/image_settings.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 namespace bin_scenes {
@@ -29,9 +29,7 @@ std::vector<BopPlace::File> classic_files(const std::string& split, const Sensor
 }  // namespace
 
 std::string six_digits(std::size_t number) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%06zu", number);
-  return text;
+  return formatted("%06zu", number);
 }
 
 std::string BopPlace::path_of(const File& file) const {

@@ -7,6 +7,7 @@
 #include "bop/image.hpp"
 #include "bop/json_file.hpp"
 #include "bop/layout.hpp"
+#include "core/formatted.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -132,11 +133,10 @@ void check_units(const BopSet& set, const nlohmann::json& info, const fs::path& 
       const double diameter = metres * info.at(std::to_string(part.object)).at("diameter").get<double>();
       const double distance = part.in_camera.position.norm();
       if (distance > 0.02 * diameter && distance < 2000.0 * diameter) continue;
-      char text[160];
-      std::snprintf(text, sizeof text, "object %d, %.3g mm across, is %.3g mm from the camera of image %d", part.object,
-                    diameter / metres, distance / metres, view.image);
-      throw input_error(std::string(text) + ": lengths are not all in millimetres", view.scene.string(),
-                        "BOP has millimetres in " + models.string() + " and in scene_gt");
+      throw input_error(formatted("object %d, %.3g mm across, is %.3g mm from the camera of image %d: lengths are not "
+                                  "all in millimetres",
+                                  part.object, diameter / metres, distance / metres, view.image),
+                        view.scene.string(), "BOP has millimetres in " + models.string() + " and in scene_gt");
     }
   }
 }

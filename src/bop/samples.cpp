@@ -2,9 +2,9 @@
 
 #include "bin_scenes/output/image_channel.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "core/formatted.hpp"
 #include "output/tiff.hpp"
 
-#include <cstdio>
 #include <filesystem>
 
 namespace bin_scenes {
@@ -13,9 +13,7 @@ namespace {
 
 /// "DIR/000017_000000.": what the names of an image's files begin with.
 std::string sample_base(const std::string& directory, std::size_t scene, std::size_t image) {
-  char key[48];
-  std::snprintf(key, sizeof key, "%06zu_%06zu.", scene, image);
-  return (std::filesystem::path(directory) / key).string();
+  return (std::filesystem::path(directory) / formatted("%06zu_%06zu.", scene, image)).string();
 }
 
 }  // namespace

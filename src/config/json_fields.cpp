@@ -1,7 +1,8 @@
 #include "config/json_fields.hpp"
 
+#include "core/formatted.hpp"
+
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace bin_scenes::config {
@@ -47,9 +48,7 @@ Json json_of(const Twist& twist) {
 }
 
 Json json_of(const Hexadecimal& number) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number.value));
-  return text;
+  return formatted("%016llx", static_cast<unsigned long long>(number.value));
 }
 
 void expect_list(const Json& json, const std::string& path, std::optional<std::size_t> size) {

@@ -1,9 +1,9 @@
 #include "bin_scenes/core/error.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -24,9 +24,7 @@ std::size_t shown_bytes(const std::string& text, std::size_t at) {
 std::string escaped(unsigned char byte) {
   if (byte == '\n') return "\\n";
   if (byte == '\t') return "\\t";
-  char text[8];
-  std::snprintf(text, sizeof text, "\\x%02x", byte);
-  return text;
+  return formatted("\\x%02x", byte);
 }
 
 /// The text from `from` on as a terminal can show it; of what is longer than `most` bytes the first ones, and not

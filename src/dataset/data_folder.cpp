@@ -5,6 +5,7 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "core/formatted.hpp"
 #include "core/read_file.hpp"
 #include "dataset/whole_folders.hpp"
 
@@ -17,7 +18,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -28,9 +28,7 @@ namespace {
 constexpr const char* format_name = "bin_scenes/dataset/1";
 
 std::string numbered(const char* before, std::size_t number) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s%06zu", before, number);
-  return text;
+  return formatted("%s%06zu", before, number);
 }
 
 nlohmann::ordered_json json_of(const BopLayout& layout) {

@@ -7,6 +7,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bop/samples.hpp"
 #include "bop/writer.hpp"
+#include "core/formatted.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
 
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
 namespace bin_scenes {
@@ -203,11 +203,9 @@ std::optional<Error> HeapMaker::crowd(const Scene& scene) const {
                                     [](const ScenePart& part) { return part.state != PartState::fixed; });
   const std::size_t outside = scene.report.not_poured.size();
   if (!(static_cast<double>(outside) > plan_.most_not_poured * static_cast<double>(poured))) return std::nullopt;
-  char share[32];
-  std::snprintf(share, sizeof share, "%.3g %%", 100.0 * plan_.most_not_poured);
-  return input_error(
-      std::to_string(outside) + " of " + std::to_string(poured) + " parts found no room, more than " + share, "amount",
-      "ask for fewer parts, enlarge the bin, or raise the plan's not_poured");
+  return input_error(formatted("%zu of %zu parts found no room, more than %.3g %%", outside,
+                               static_cast<std::size_t>(poured), 100.0 * plan_.most_not_poured),
+                     "amount", "ask for fewer parts, enlarge the bin, or raise the plan's not_poured");
 }
 
 void HeapMaker::write_scene(const Generator::Result& result, const LoadedRequest& loaded,

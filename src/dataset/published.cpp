@@ -1,7 +1,8 @@
 #include "dataset/published.hpp"
 
+#include "core/formatted.hpp"
+
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 
 namespace bin_scenes {
@@ -10,13 +11,6 @@ namespace {
 
 constexpr const char* xyz_ibd = "XYZ-IBD, validation images (arXiv 2506.00599)";
 constexpr const char* grasp_clutter = "GraspClutter6D (arXiv 2504.06866)";
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
 
 }  // namespace
 
@@ -45,22 +39,22 @@ void Seen::add(const nlohmann::json& summary) {
 nlohmann::json Seen::rows() const {
   nlohmann::json rows = nlohmann::json::array();
   if (scenes_ == 0) return rows;
-  rows.push_back({"parts a bin", text("%zu to %zu", least_, most_), "10 to 59 copies of one part", xyz_ibd});
+  rows.push_back({"parts a bin", formatted("%zu to %zu", least_, most_), "10 to 59 copies of one part", xyz_ibd});
   const double all = static_cast<double>(std::accumulate(visible_.begin(), visible_.end(), std::size_t{0}));
   if (all > 0.0)
     rows.push_back({"instances visible by at most 95 %",
-                    text("%.1f %%", 100.0 * (1.0 - static_cast<double>(visible_.back()) / all)), "62.6 %",
+                    formatted("%.1f %%", 100.0 * (1.0 - static_cast<double>(visible_.back()) / all)), "62.6 %",
                     grasp_clutter});
   for (const auto& [name, sensor] : sensors_) {
     if (sensor.instances == 0) continue;
     const auto count = static_cast<double>(sensor.instances);
     rows.push_back({name + ": instances visible by 10 % and more, an image",
-                    text("%.1f", count / static_cast<double>(sensor.images)), "26.6", xyz_ibd});
-    rows.push_back({name + ": depth of these instances", text("%.0f to %.0f mm", 1e3 * sensor.near, 1e3 * sensor.far),
-                    "604 to 828 mm", xyz_ibd});
+                    formatted("%.1f", count / static_cast<double>(sensor.images)), "26.6", xyz_ibd});
+    rows.push_back({name + ": depth of these instances",
+                    formatted("%.0f to %.0f mm", 1e3 * sensor.near, 1e3 * sensor.far), "604 to 828 mm", xyz_ibd});
     const auto share = [&](std::size_t i) { return 100.0 * static_cast<double>(sensor.holes[i]) / count; };
     rows.push_back({name + ": instances with depth in less than 0.90, up to 0.99, more of their visible pixels",
-                    text("%.1f, %.1f, %.1f %%", share(0), share(1), share(2)), "2.7, 22.7, 74.7 % (RealSense)",
+                    formatted("%.1f, %.1f, %.1f %%", share(0), share(1), share(2)), "2.7, 22.7, 74.7 % (RealSense)",
                     xyz_ibd});
   }
   return rows;

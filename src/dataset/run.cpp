@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
+#include "core/formatted.hpp"
 #include "dataset/heap_maker.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/shards.hpp"
@@ -11,7 +12,6 @@
 #include "dataset/workers.hpp"
 
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <thread>
 
@@ -24,9 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::string size_text(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, bytes < 1e9 ? "%.1f MB" : "%.2f GB", bytes / (bytes < 1e9 ? 1e6 : 1e9));
-  return text;
+  return bytes < 1e9 ? formatted("%.1f MB", bytes / 1e6) : formatted("%.2f GB", bytes / 1e9);
 }
 
 /// Heaps of this share that are done; the index is put right where it and the disk differ.

@@ -1,6 +1,7 @@
 /// Reads every shard as a tar file and compares keys, offsets, sizes and masks with what the set states of its images.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/image_channel.hpp"
+#include "core/formatted.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
 #include "dataset/verify.hpp"
@@ -158,10 +159,8 @@ void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings
   for (std::size_t scene = 0; scene < facts.scenes(); ++scene) {
     if (!fs::exists(folder.scene(scene) / "scene.json")) continue;
     for (std::size_t image = 0; image < facts.sensors; ++image) {
-      char key[48];
-      std::snprintf(key, sizeof key, "%06zu_%06zu", scene, image);
-      findings.expect(found.count(key) == 1, "shard_complete", folder.shards().string(),
-                      std::string(key) + " is in no shard");
+      const std::string key = formatted("%06zu_%06zu", scene, image);
+      findings.expect(found.count(key) == 1, "shard_complete", folder.shards().string(), key + " is in no shard");
     }
   }
 }

@@ -4,10 +4,10 @@
 #include "bin_scenes/part/hull_geometry.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -36,9 +36,7 @@ bool is_part(double diagonal) {
 }
 
 std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return formatted("%.4g", value);
 }
 std::string in_metres(double value) {
   return short_number(value) + " m";

@@ -7,13 +7,13 @@
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "bin_scenes/solver/solver.hpp"
 
+#include "core/formatted.hpp"
 #include "generate/finishing.hpp"
 
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 namespace bin_scenes {
@@ -125,9 +125,7 @@ double overlap_bytes(const LoadedRequest& loaded, double most) {
 }
 
 std::string in_megabytes(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.0f MB", std::ceil(bytes / 1e6));
-  return text;
+  return formatted("%.0f MB", std::ceil(bytes / 1e6));
 }
 
 /// Images of one scene.

@@ -2,11 +2,11 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "core/formatted.hpp"
 #include "generate/bin_walls.hpp"
 #include "grasp/finger_boxes.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 namespace bin_scenes {
@@ -15,9 +15,7 @@ namespace {
 
 /// Every bit of a number counts: sizes that differ by less than a printed digit are different parts.
 std::string text_of(double number) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%a", number);
-  return text;
+  return formatted("%a", number);
 }
 
 /// Everything the loaded model depends on. Where the request does not give the digest of the file, its time and size

@@ -1,11 +1,11 @@
 #include "grasp/finger_boxes.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -36,9 +36,8 @@ bool nearly_same(const Aabb& a, const Aabb& b, double tolerance) {
 void check_place(const Aabb& bounds, const Gripper& gripper, const std::string& key) {
   const double limit = misfit * gripper.pad_length;
   const auto refuse = [&](const char* what, double is, double should) {
-    char text[160];
-    std::snprintf(text, sizeof text, "its %s is %.4g m, and should be %.4g m", what, is, should);
-    throw input_error(text, key, "move the mesh in its file, or set finger_mesh_scale or pad_length");
+    throw input_error(formatted("its %s is %.4g m, and should be %.4g m", what, is, should), key,
+                      "move the mesh in its file, or set finger_mesh_scale or pad_length");
   };
   if (std::abs(bounds.lower.x()) > limit) refuse("smallest x", bounds.lower.x(), 0.0);
   const double tip = 0.5 * gripper.pad_length;

@@ -1,16 +1,15 @@
 /// Formats counts and lengths for messages about meshes. It is for text that people read only.
 #pragma once
 
-#include <cstdio>
+#include "core/formatted.hpp"
+
 #include <string>
 
 namespace bin_scenes {
 
 /// Three digits.
 inline std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
+  return formatted("%.3g", x);
 }
 
 /// "1 hole", "2 holes".

@@ -4,9 +4,9 @@
 #include "output/png.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 
@@ -37,10 +37,7 @@ constexpr Field fields[] = {{"x", "x", "float"},
 std::string pose_text(const Pose& pose) {
   const Vec3& p = pose.position;
   const Quat& q = pose.orientation;
-  char text[256];
-  std::snprintf(text, sizeof text, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
-                q.z());
-  return text;
+  return formatted("%.9g %.9g %.9g %.9g %.9g %.9g %.9g", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
 }
 
 /// Tens of megabytes, not written twice; through write_bytes(), where a full disk is an error and no signal.

@@ -1,9 +1,9 @@
 /// Depth and validity as pictures to look at, each with what its colours mean beside it.
+#include "core/formatted.hpp"
 #include "output/png.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 #include <vector>
@@ -135,10 +135,9 @@ Palette depth_picture(const RangeImage& image) {
   }
   constexpr int ticks = 4;
   for (int i = 0; i <= ticks; ++i) {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.3fm", nearest + range * i / ticks);
     canvas.fill(canvas.right() + 12 * size, top + (bar - 1) * i / ticks, 3 * size, size, ink);
-    canvas.write(canvas.right() + 17 * size, top + (bar - 1) * i / ticks - 3 * size, text);
+    canvas.write(canvas.right() + 17 * size, top + (bar - 1) * i / ticks - 3 * size,
+                 formatted("%.3fm", nearest + range * i / ticks));
   }
   return canvas.picture;
 }

@@ -1,9 +1,9 @@
 #include "page/html.hpp"
 
+#include "core/formatted.hpp"
 #include "core/read_file.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -18,9 +18,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string short_number(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
+  return formatted("%.*g", digits, value);
 }
 
 std::string base64(const Bytes& bytes) {

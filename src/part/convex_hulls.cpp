@@ -10,6 +10,7 @@
 #include "bin_scenes/part/mass_properties.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "bin_scenes/part/shape_error.hpp"
+#include "core/formatted.hpp"
 #include "core/in_parallel.hpp"
 #include "hacd_partition.hpp"
 #include "plane_cuts.hpp"
@@ -17,7 +18,6 @@
 #include "shells.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -273,19 +273,12 @@ ConvexHulls convex_hulls(const Mesh& mesh, const HullOptions& options) {
 
 void write_hulls_obj(const ConvexHulls& hulls, const std::string& path) {
   std::string text = "# convex hulls, metres\n";
-  char line[128];
   std::size_t first = 1;
   for (std::size_t h = 0; h < hulls.hulls.size(); ++h) {
     const Mesh& hull = hulls.hulls[h];
     text += "o hull_" + std::to_string(h) + "\n";
-    for (const Vec3& v : hull.vertices) {
-      std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", v.x(), v.y(), v.z());
-      text += line;
-    }
-    for (const auto& [a, b, c] : hull.triangles) {
-      std::snprintf(line, sizeof line, "f %zu %zu %zu\n", first + a, first + b, first + c);
-      text += line;
-    }
+    for (const Vec3& v : hull.vertices) text += formatted("v %.9g %.9g %.9g\n", v.x(), v.y(), v.z());
+    for (const auto& [a, b, c] : hull.triangles) text += formatted("f %zu %zu %zu\n", first + a, first + b, first + c);
     first += hull.vertices.size();
   }
   // Under another name first, so that no half of it is left.

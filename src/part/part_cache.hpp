@@ -3,10 +3,10 @@
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
+#include "core/formatted.hpp"
 #include "part_bytes.hpp"
 
 #include <atomic>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -17,9 +17,7 @@ struct PartWorkCounter {
 
 /// Options as text for a cache key: every bit of a number counts.
 inline std::string key_text(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%a ", value);
-  return text;
+  return formatted("%a ", value);
 }
 
 template <class T, class Make>

@@ -3,10 +3,10 @@
 #include "pour/energy_audit.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -190,20 +190,19 @@ void EnergyAudit::compare_gains(DisjointSets& group, const std::vector<Reach>& r
 std::vector<Flag> flags_of(const EnergyReport& worst) {
   const std::string remedy = "use the other solver, shorter time steps, or a model without nearly equal fits";
   std::vector<Flag> flags;
-  char text[160];
-  if (worst.gain > flagged_gain) {
-    std::snprintf(text, sizeof text, "part %d gained %.3g m g d of energy from nowhere by %.3f s of simulated time",
-                  worst.part, worst.gain, worst.time);
-    flags.push_back({"energy_gained", text, remedy});
-  }
+  if (worst.gain > flagged_gain)
+    flags.push_back({"energy_gained",
+                     formatted("part %d gained %.3g m g d of energy from nowhere by %.3f s of simulated time",
+                               worst.part, worst.gain, worst.time),
+                     remedy});
   const auto& thrown = worst.thrown;
-  if (thrown.ratio > flagged_ratio) {
-    std::snprintf(text, sizeof text,
-                  "part %d, beside %s, left at %.3g times the speed of what was near it by %.3f s of simulated time",
-                  thrown.part, thrown.beside < 0 ? "the bin" : ("part " + std::to_string(thrown.beside)).c_str(),
-                  thrown.ratio, thrown.time);
-    flags.push_back({"part_thrown", text, remedy});
-  }
+  if (thrown.ratio > flagged_ratio)
+    flags.push_back(
+        {"part_thrown",
+         formatted("part %d, beside %s, left at %.3g times the speed of what was near it by %.3f s of simulated time",
+                   thrown.part, thrown.beside < 0 ? "the bin" : ("part " + std::to_string(thrown.beside)).c_str(),
+                   thrown.ratio, thrown.time),
+         remedy});
   return flags;
 }
 

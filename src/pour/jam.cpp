@@ -3,10 +3,10 @@
 #include "core/disjoint_sets.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -68,10 +68,10 @@ JamReport worst_jam(const WorldDef& world, const std::vector<BodyState>& states,
 
 std::vector<Flag> flags_of(const JamReport& jam) {
   if (jam.ratio <= flagged_squeeze) return {};
-  char text[160];
-  std::snprintf(text, sizeof text, "part %d is squeezed by %.3g times the weight of itself and of what lies on it",
-                jam.part, jam.ratio);
-  return {{"part_jammed", text, "check its fit: it may stick where its collision shape fills a gap of the part"}};
+  return {
+      {"part_jammed",
+       formatted("part %d is squeezed by %.3g times the weight of itself and of what lies on it", jam.part, jam.ratio),
+       "check its fit: it may stick where its collision shape fills a gap of the part"}};
 }
 
 }  // namespace bin_scenes

@@ -1,10 +1,10 @@
 #include "pour/squeezed_parts.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "core/formatted.hpp"
 #include "solver/step_limit.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -58,13 +58,10 @@ double sub_step(const PourPlan& plan) {
   const auto named = [&](const Standing& s) {
     return "part " + std::to_string(s.body) + " (" + plan.request.parts[plan.line_of[s.body]].model + ")";
   };
-  char times[32], limit[32];
-  std::snprintf(times, sizeof times, "%.4g", ratio);
-  std::snprintf(limit, sizeof limit, "%.2g", most);
-  throw input_error(named(heavy) + " stands on " + named(light) + " and is " + times +
+  throw input_error(named(heavy) + " stands on " + named(light) + " and is " + formatted("%.4g", ratio) +
                         " times as heavy, and no friction holds the lower one: it would be squeezed out",
                     "parts[" + std::to_string(plan.line_of[light.body]) + "].friction",
-                    std::string("set friction, or masses that differ by a factor of at most ") + limit);
+                    formatted("set friction, or masses that differ by a factor of at most %.2g", most));
 }
 
 }  // namespace

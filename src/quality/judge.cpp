@@ -4,10 +4,10 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
+#include "core/formatted.hpp"
 #include "gap.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 
 namespace bin_scenes {
@@ -98,9 +98,7 @@ struct Worst {
 };
 
 std::string percent(double fraction) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * fraction);
-  return text;
+  return formatted("%.2g %%", 100.0 * fraction);
 }
 
 /// The first ten by name.
@@ -176,51 +174,38 @@ Worst<int> measure_gaps(Report& report, const std::vector<Placed>& placed, const
 
 /// Why contacts are not to be trusted: energy from nowhere, parts thrown out.
 void add_energy_reasons(Report& report, const Acceptance& accept) {
-  char text[160];
-  if (report.energy.gain > accept.energy) {
-    std::snprintf(text, sizeof text,
-                  "part %d gained %.3g m g d of energy from nowhere by %.3f s, which is above accept.energy %.3g",
-                  report.energy.part, report.energy.gain, report.energy.time, accept.energy);
-    report.reasons.push_back(text);
-  }
-  if (const auto& thrown = report.energy.thrown; thrown.ratio > accept.speed) {
-    std::snprintf(
-        text, sizeof text,
+  if (report.energy.gain > accept.energy)
+    report.reasons.push_back(
+        formatted("part %d gained %.3g m g d of energy from nowhere by %.3f s, which is above accept.energy %.3g",
+                  report.energy.part, report.energy.gain, report.energy.time, accept.energy));
+  if (const auto& thrown = report.energy.thrown; thrown.ratio > accept.speed)
+    report.reasons.push_back(formatted(
         "part %d was thrown at %.3g times the speed of what was near it by %.3f s, which is above accept.speed %.3g",
-        thrown.part, thrown.ratio, thrown.time, accept.speed);
-    report.reasons.push_back(text);
-  }
+        thrown.part, thrown.ratio, thrown.time, accept.speed));
 }
 
 /// A part that contacts hold by far more than anything weighs does not lie there.
 void add_jam_reason(Report& report, const Acceptance& accept) {
   if (report.jam.ratio <= accept.jam) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "part %d is squeezed by %.3g times the weight of itself and of what lies on it, which is above "
+  report.reasons.push_back(
+      formatted("part %d is squeezed by %.3g times the weight of itself and of what lies on it, which is above "
                 "accept.jam %.3g",
-                report.jam.part, report.jam.ratio, accept.jam);
-  report.reasons.push_back(text);
+                report.jam.part, report.jam.ratio, accept.jam));
 }
 
 /// Why the scene is not to be trusted, although nothing of it shows at the end.
 void add_worst_reasons(Report& report, const Acceptance& accept) {
-  char text[240];
   if (const auto& worst = report.worst.penetration; worst.relative > accept.worst_penetration) {
     const std::string other = worst.pair[1] < 0 ? "the bin" : std::to_string(worst.pair[1]);
-    std::snprintf(text, sizeof text,
-                  "part %d and %s overlapped by %s of d at %.3f s, which is above accept.worst_penetration %s",
-                  worst.pair[0], other.c_str(), percent(worst.relative).c_str(), worst.time,
-                  percent(accept.worst_penetration).c_str());
-    report.reasons.push_back(text);
+    report.reasons.push_back(formatted(
+        "part %d and %s overlapped by %s of d at %.3f s, which is above accept.worst_penetration %s", worst.pair[0],
+        other.c_str(), percent(worst.relative).c_str(), worst.time, percent(accept.worst_penetration).c_str()));
   }
-  if (const auto& gain = report.worst.energy_gain; gain.relative > accept.worst_energy_gain) {
-    std::snprintf(text, sizeof text,
-                  "the energy of all parts rose by %.3g m g d of those that moved by %.3f s, which is above "
+  if (const auto& gain = report.worst.energy_gain; gain.relative > accept.worst_energy_gain)
+    report.reasons.push_back(
+        formatted("the energy of all parts rose by %.3g m g d of those that moved by %.3f s, which is above "
                   "accept.worst_energy_gain %.3g",
-                  gain.relative, gain.time, accept.worst_energy_gain);
-    report.reasons.push_back(text);
-  }
+                  gain.relative, gain.time, accept.worst_energy_gain));
 }
 
 /// Why the scene is not what was asked for: parts that are missing or still move.
@@ -237,9 +222,7 @@ void add_state_reasons(Scene& scene, const Request& request) {
   std::vector<int> moving;
   for (const ScenePart& part : scene.parts)
     if (part.state == PartState::moving) moving.push_back(part.id);
-  char time[32];
-  std::snprintf(time, sizeof time, "%.3g", report.simulated_s);
-  report.reasons.push_back("not at rest after " + std::string(time) + " s: " + std::to_string(moving.size()) +
+  report.reasons.push_back(formatted("not at rest after %.3g s: ", report.simulated_s) + std::to_string(moving.size()) +
                            (moving.size() == 1 ? " part moving (" : " parts moving (") + listed(moving) + ")");
 }
 

@@ -2,10 +2,9 @@
 
 #include "bin_scenes/scene/sensor_name.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
+#include "core/formatted.hpp"
 
 #include <geometry_msgs/TransformStamped.h>
-
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -27,9 +26,7 @@ geometry_msgs::TransformStamped transform(const std::string& parent, const std::
 }  // namespace
 
 std::string part_frame(int id, const std::string& prefix) {
-  char name[32];
-  std::snprintf(name, sizeof name, "part_%04d", id);
-  return prefix + name;
+  return prefix + formatted("part_%04d", id);
 }
 
 std::string sensor_frame(const std::string& sensor, const std::string& prefix) {

@@ -1,11 +1,12 @@
 /// Markers of parts, bin and contacts. RViz reads model files by their address; of CAD files it gets the triangles.
 #include "markers.hpp"
 
+#include "core/formatted.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace bin_scenes {
@@ -125,9 +126,7 @@ std::string resource_uri(const std::string& model, const std::string& path) {
     if (std::isalnum(c) || c == '/' || c == '-' || c == '_' || c == '.' || c == '~') {
       uri += static_cast<char>(c);
     } else {
-      char code[4];
-      std::snprintf(code, sizeof code, "%%%02X", c);
-      uri += code;
+      uri += formatted("%%%02X", c);
     }
   }
   return uri;

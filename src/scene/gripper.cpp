@@ -1,9 +1,9 @@
 #include "bin_scenes/scene/gripper.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -21,9 +21,7 @@ constexpr double bias_of_fingers = -0.4, holding_of_fingers = 1.0, sliding_of_fi
 constexpr double bias_of_cup = -1.4, holding_of_cup = 5.8, sliding_of_cup = 1.7;
 
 std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g m", value);
-  return text;
+  return formatted("%.4g m", value);
 }
 
 /// The lengths that a type uses and that no gripper can do without.

@@ -2,19 +2,19 @@
 /// faster.
 #include "solver/device_choice.hpp"
 
+#include "bin_scenes/core/cache.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/gl/device.hpp"
-#include "bin_scenes/core/cache.hpp"
 #include "bin_scenes/part/part_model.hpp"
+#include "core/formatted.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -140,9 +140,7 @@ bool read(const std::string& text, DeviceFigures& figures) {
 }
 
 std::string in_ms(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g ms", 1e3 * seconds);
-  return text;
+  return formatted("%.3g ms", 1e3 * seconds);
 }
 
 /// s a step and scene.

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"
+#include "core/formatted.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 
 namespace bin_scenes {
@@ -44,11 +44,7 @@ inline int step_cuts(double time_step, double gravity, double smallest_diagonal,
 
 /// Returns the flag with which the report states it. `key`: of the setting, "solver.sphere.time_step".
 inline Flag step_cut_flag(const std::string& key, double time_step, int cuts, double smallest_diagonal) {
-  const auto milli = [](double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g m", 1e3 * value);
-    return std::string(text);
-  };
+  const auto milli = [](double value) { return formatted("%.4g m", 1e3 * value); };
   return {"time_step_cut",
           "each time step of " + milli(time_step) + "s was cut in " + std::to_string(cuts) + ", since parts of " +
               milli(smallest_diagonal) + "m fall too far in one",

@@ -3,6 +3,7 @@
 #include "audit/judge.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "core/formatted.hpp"
 #include "dataset/whole_folders.hpp"
 #include "page/audit_page.hpp"
 #include "tool/commands.hpp"
@@ -56,13 +57,9 @@ std::string bin_text(const AuditBin& bin, bool own) {
   if (own) return "the bins that the data set states";
   if (bin.fitted) return "a bin fitted around the parts of each heap";
   if (!bin.inner_size && !bin.floor) return "a table fitted to the lowest parts of each heap";
-  char text[100];
-  if (bin.floor)
-    std::snprintf(text, sizeof text, "a table at z = %g m", *bin.floor);
-  else
-    std::snprintf(text, sizeof text, "a bin of %g x %g x %g m around the origin", bin.inner_size->x(),
-                  bin.inner_size->y(), bin.inner_size->z());
-  return text;
+  if (bin.floor) return formatted("a table at z = %g m", *bin.floor);
+  const Vec3& size = *bin.inner_size;
+  return formatted("a bin of %g x %g x %g m around the origin", size.x(), size.y(), size.z());
 }
 
 /// The worst parts or images that have faults.

@@ -1,6 +1,7 @@
 /// The command `dataset` and those below it: reads options, listens to signals, prints progress. The work is in
 /// src/dataset.
 #include "bin_scenes/config/plan.hpp"
+#include "core/formatted.hpp"
 #include "dataset/data_folder.hpp"
 #include "dataset/merge.hpp"
 #include "dataset/run.hpp"
@@ -75,9 +76,8 @@ class Teller {
 
  private:
   void show(const RunProgress& p) {
-    char text[200];
-    std::snprintf(text, sizeof text, "%s: %zu of %zu heaps, %zu scenes, %zu rejected, %.0f scenes/h", p.phase.c_str(),
-                  p.heaps_done, p.heaps, p.accepted, p.rejected, p.scenes_per_hour);
+    const std::string text = formatted("%s: %zu of %zu heaps, %zu scenes, %zu rejected, %.0f scenes/h", p.phase.c_str(),
+                                       p.heaps_done, p.heaps, p.accepted, p.rejected, p.scenes_per_hour);
     const bool known = p.remaining_s > 0.0 && p.heaps > 0;
     bar_.show(p.heaps > 0 ? static_cast<double>(p.heaps_done) / static_cast<double>(p.heaps) : 0.0, text,
               known ? std::optional<double>(p.remaining_s) : std::nullopt);

@@ -1,9 +1,10 @@
 /// The command `new`: a first request for a part, with the bin that fits, and its first scene.
-#include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/config/presets.hpp"
+#include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/part_model.hpp"
+#include "core/formatted.hpp"
 #include "dataset/whole_folders.hpp"
 #include "generate/fitted_bin.hpp"
 #include "tool/commands.hpp"
@@ -38,15 +39,8 @@ std::string quoted(const std::string& text) {
   }
 }
 
-template <class... Values>
-std::string format(const char* how, Values... values) {
-  char text[400];
-  std::snprintf(text, sizeof text, how, values...);
-  return text;
-}
-
 std::string size_text(const Vec3& size) {
-  return format("%.3g x %.3g x %.3g m", size.x(), size.y(), size.z());
+  return formatted("%.3g x %.3g x %.3g m", size.x(), size.y(), size.z());
 }
 
 std::string line(std::string key, const std::string& comment) {
@@ -86,10 +80,10 @@ std::string part_text(const Draft& d, const fs::path& folder) {
     text += "    # " + size + ", " + d.unit.reason + "\n";
   if (!o.solid.empty()) text += line("    solid: " + quoted(o.solid), "");
   if (o.thickness)
-    text += line(format("    thickness: %g", *o.thickness), "m: the surface is open and becomes a shell");
+    text += line(formatted("    thickness: %g", *o.thickness), "m: the surface is open and becomes a shell");
   text += line("    count: " + std::to_string(o.count), "");
-  text += line(format("    density: %g", density),
-               format("kg/m3: steel, %.3g kg a part; aluminium 2700, plastic 1050", mass));
+  text += line(formatted("    density: %g", density),
+               formatted("kg/m3: steel, %.3g kg a part; aluminium 2700, plastic 1050", mass));
   text += line("    friction: 0.5", "of a pair: sqrt(a * b)");
   text += line("    restitution: 0.1", "of a pair: the larger of the two");
   return text + "    # surface: {material: steel_brushed}   # what cameras see; names: config/materials\n";
@@ -103,8 +97,8 @@ std::string sensor_text(const Draft& d) {
     for (const std::string& preset : sensor_presets()) text += "\n    #   " + preset;
     return text + "\n";
   }
-  text += line("    preset: " + d.options.sensor, format("it stands %.2f m above the floor", d.place.distance));
-  if (d.place.height) text += line(format("    pose: [0, 0, %.3f, 1, 0, 0, 0]", *d.place.height), "looks down");
+  text += line("    preset: " + d.options.sensor, formatted("it stands %.2f m above the floor", d.place.distance));
+  if (d.place.height) text += line(formatted("    pose: [0, 0, %.3f, 1, 0, 0, 0]", *d.place.height), "looks down");
   if (!d.place.warning.empty()) text += "    # " + d.place.warning + "\n";
   return text;
 }
@@ -117,10 +111,10 @@ std::string request_text(const Draft& d, const fs::path& folder) {
       d.options.out + " --out scenes --scenes 10 --formats json,png,ply\n";
   text += line("seed: 1", "same request and seed = same scenes");
   text += "bin:\n";
-  text += line(format("  inner_size: [%g, %g, %g]", size.x(), size.y(), size.z()), "m, see below");
-  text += line(format("  wall_thickness: %g", wall_thickness), "m");
+  text += line(formatted("  inner_size: [%g, %g, %g]", size.x(), size.y(), size.z()), "m, see below");
+  text += line(formatted("  wall_thickness: %g", wall_thickness), "m");
   text += line("  friction: 0.5", "");
-  text += format(
+  text += formatted(
       "  # Chosen for the part and count: a heap takes about %.2g times the convex hulls (%.3g cm3 each) of its\n"
       "  # parts. On this floor it lies %.0f mm high on average; the rim is above its top.\n",
       d.fitted.loose, 1e6 * d.fitted.hull, 1e3 * d.fitted.level);
@@ -139,8 +133,8 @@ std::string outcome(const Scene& scene, const Draft& d) {
     for (const Vec3& corner : d.part->corners())
       top = std::max(top, part.pose.position.z() + (part.pose.orientation * corner).z());
   }
-  return format("%zu of %zu parts in a bin of %s, heap %.3g m high", inside, scene.parts.size(),
-                size_text(d.bin.inner_size).c_str(), top);
+  return formatted("%zu of %zu parts in a bin of %s, heap %.3g m high", inside, scene.parts.size(),
+                   size_text(d.bin.inner_size).c_str(), top);
 }
 
 int pour_once(const Draft& d) {

@@ -1,6 +1,8 @@
 /// Draws the line of progress, or writes lines into a file or pipe, from the thread that works or from one of its own.
 #include "tool/progress_bar.hpp"
 
+#include "core/formatted.hpp"
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -54,20 +56,14 @@ double seconds(std::chrono::steady_clock::duration time) {
 
 std::string clock_text(double seconds) {
   const long s = std::lround(std::min(seconds, 3.6e8));
-  char text[48];
-  if (s < 3600)
-    std::snprintf(text, sizeof text, "%ld:%02ld", s / 60, s % 60);
-  else
-    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
-  return text;
+  if (s < 3600) return formatted("%ld:%02ld", s / 60, s % 60);
+  return formatted("%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
 }
 
 /// "  7 % "; empty while nothing is known.
 std::string percent_text(double fraction) {
   if (fraction < 0.001) return "";
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "%3.0f %% ", 100.0 * std::min(fraction, 1.0));
-  return digits;
+  return formatted("%3.0f %% ", 100.0 * std::min(fraction, 1.0));
 }
 
 /// ", 1:20 left", or the time spent while that is not known.

@@ -7,13 +7,13 @@
 #include "bin_scenes/core/contact.hpp"
 
 #include "convert.hpp"
+#include "core/formatted.hpp"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <mutex>
 #include <utility>
 
@@ -376,9 +376,7 @@ std::vector<Flag> World::flags() const {
     const auto user = std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& b) { return b->def->part == p; });
     if (user == bodies_.end() || (*user)->shape->hulls_met) continue;
     const PartShape& shape = *(*user)->shape;
-    char errors[160];
-    std::snprintf(
-        errors, sizeof errors,
+    const std::string errors = formatted(
         " leave the mesh by %.2g %% of its diagonal, and their volume is off by %+.2g %%; they may fill a play "
         "of up to %.2g mm",
         100.0 * shape.hull_error, 100.0 * shape.hull_volume_error, 2e3 * shape.hull_error * def_.parts[p]->diagonal());
