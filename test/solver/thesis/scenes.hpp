@@ -62,7 +62,7 @@ inline Shape make_shape(const std::vector<Sphere>& spheres) {
   Mat3 axes = solver.eigenvectors();
   if (axes.determinant() < 0.0) axes.col(2) *= -1.0;
   mass.principal_axes = Quat(axes);
-  return make_shape(spheres, mass);
+  return thesis::make_shape(spheres, mass);
 }
 
 struct WorldBuilder {
