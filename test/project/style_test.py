@@ -16,7 +16,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BY_HAND = re.compile(r"shaders/(?!shared/sphere/)")
 # clang-tidy takes seconds a file: of these layers, which all others use.
 TIDY = ("src/core/", "src/scene/")
-TIDY_FLAGS = ["-std=c++17", "-Iinclude", "-Isrc", "-Ishaders", "-isystem", "/usr/include/eigen3"]
+TIDY_FLAGS = ["-std=c++17", "-Iinclude", "-Isrc", "-Ishaders", "-isystem", "/usr/include/eigen3",
+              '-DBIN_SCENES_SOURCE_DIR=""', '-DBIN_SCENES_INSTALL_DIR=""']
 
 # Parameters and lines of a function; test programs list what they try, and may be longer.
 MOST_PARAMETERS, MOST_LINES = 7, 60
