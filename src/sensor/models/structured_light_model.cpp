@@ -36,25 +36,44 @@ StructuredLight::Setup structured_light_setup(const Sensor& s) {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   StructuredLightSettings& s = settings.of<StructuredLightSettings>();
-  v.field({"steps", "", "images of the phase shift; noise falls with the square root", at_least(3.0, 64.0)}, s.steps);
-  v.field({"period", "pixel", "projector pixels a fringe; shorter = less noise, more Gray images, sooner blurred",
+  v.field({"steps", "", "Number of images of the phase shift. The noise is proportional to 1 / sqrt(steps).",
+           at_least(3.0, 64.0)},
+          s.steps);
+  v.field({"period", "pixel",
+           "Period of the fringes, in pixels of the projector. A shorter period gives less noise, but needs more "
+           "Gray-code images and is blurred sooner.",
            at_least(4.0, 4096.0)},
           s.period);
-  v.field({"gray_bits", "", "Gray-code images; 0 = as many as the projector's width needs", at_least(0.0, 14.0)},
-          s.gray_bits);
-  v.field({"contrast", "", "(white - black) / (white + black) of the projector", at_least(0.01, 1.0)}, s.contrast);
-  v.field({"defocus", "pixel", "standard deviation of the projector's blur, its pixels; 0 = sharp", at_least(0.0)},
+  v.field(
+      {"gray_bits", "", "Number of Gray-code images. With 0, there are as many as the width of the projector needs.",
+       at_least(0.0, 14.0)},
+      s.gray_bits);
+  v.field({"contrast", "", "Contrast of the projector: (white - black) / (white + black).", at_least(0.01, 1.0)},
+          s.contrast);
+  v.field({"defocus", "pixel",
+           "Standard deviation of the blur of the projector, in pixels of the projector. With 0, the pattern is sharp.",
+           at_least(0.0)},
           s.defocus);
-  v.field({"gamma", "", "decoded: the projector's exponent after calibration; 1 = linear", at_least(0.1, 10.0)},
+  v.field({"gamma", "",
+           "Only with `fidelity: decoded`: exponent of the projector's response that remains after calibration. With "
+           "1, the response is linear.",
+           at_least(0.1, 10.0)},
           s.gamma);
-  v.field({"min_modulation", "", "amplitude / full well below which a pixel is dark (code 4)", above(0.0, 1.0)},
+  v.field({"min_modulation", "",
+           "Smallest amplitude of the fringes at which a pixel is measured, divided by the full well. Darker pixels "
+           "are missing (validity code 4).",
+           above(0.0, 1.0)},
           s.min_modulation);
-  v.field({"mixed", "", "pixels of foreground and background: remove = invalid (code 6), keep = flying points"},
+  v.field({"mixed", "",
+           "Treatment of pixels that see both foreground and background. `remove`: they are invalid (validity code 6). "
+           "`keep`: they have a depth between both (flying points)."},
           s.mixed, mixed_pixels);
-  v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
+  v.field({"edge_step", "m", "Smallest step of depth inside a pixel that makes it a mixed pixel.", above(0.0, 10.0)},
+          s.edge_step);
   v.field({"indirect_error", "",
-           "largest standard error of the light that met other surfaces, as a share of the mean direct light: places "
-           "that need it get more rays than indirect_samples, at most 1024; smaller = less noise, slower; 0 = none do",
+           "Largest standard error of the light that other surfaces reflect, as a share of the mean direct light. "
+           "Where it would be larger, more than `indirect_samples` rays are used, but at most 1024. Smaller values "
+           "give less noise and take more time. With 0, no place gets more rays.",
            at_least(0.0, 1.0)},
           settings.of<IndirectSettings>().error);
 }
@@ -126,8 +145,13 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  SensorModel m{
-      "structured_light", "fringes: phase shift and Gray code", visit_keys, check, check_places, measured, sigma};
+  SensorModel m{"structured_light",
+                "Settings of the model `structured_light`: fringe projection by phase shift and Gray code.",
+                visit_keys,
+                check,
+                check_places,
+                measured,
+                sigma};
   m.imager = m.projector = m.fidelity = m.indirect = m.gray = true;
   m.bounces = 1;
   m.report = report;
