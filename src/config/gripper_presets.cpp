@@ -22,7 +22,8 @@ std::vector<std::string> gripper_presets() {
 Gripper gripper_preset(const std::string& name) {
   const std::string path = config::preset_path(gripper_preset_directory(), name, "gripper preset");
   const YAML::Node root = config::preset_keys(path, "gripper keys");
-  if (root["preset"]) throw input_error("a preset names a preset", path, "write the values themselves");
+  if (root["preset"])
+    throw input_error("a preset must not name another preset", path, "write the values of that preset here");
   Gripper gripper = config::read_preset<Gripper>(root, path);
   gripper.preset = name;
   if (gripper.name.empty()) gripper.name = name;

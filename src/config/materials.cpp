@@ -22,7 +22,8 @@ std::vector<std::string> materials() {
 Surface material(const std::string& name) {
   const std::string path = config::preset_path(material_directory(), name, "material");
   const YAML::Node root = config::preset_keys(path, "surface keys");
-  if (root["material"]) throw input_error("a material names a material", path, "write the values themselves");
+  if (root["material"])
+    throw input_error("a material must not name another material", path, "write the values of that material here");
   return config::read_preset<Surface>(root, path);
 }
 

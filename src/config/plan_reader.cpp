@@ -38,9 +38,9 @@ class PlanFile {
   Plan read() {
     plan_.text = read_file(path_, config::longest_text);
     const YAML::Node root = config::load_yaml(plan_.text, path_);
-    if (!root.IsMap()) throw input_error("the plan is no map of keys", path_, "see docs/use/datasets.md");
+    if (!root.IsMap()) throw input_error("the plan is not a map of keys", path_, "see docs/use/datasets.md");
     if (!own_value(root, "request") && own_value(root, "parts"))
-      throw input_error("this is a request, no plan of a data set", path_,
+      throw input_error("this is a request and not a plan of a data set", path_,
                         "write scenes: N and request: FILE in a plan");
     YAML::Node deciding = YAML::Clone(root);
     deciding.remove("scenes");

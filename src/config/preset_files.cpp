@@ -52,12 +52,12 @@ YAML::Node preset_keys(const std::string& path, const std::string& what) {
   try {
     root = YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {
-    throw input_error("cannot be read", path, "name a file of " + what + " that is there and readable");
+    throw input_error("cannot be read", path, "name a file of " + what + " that exists and can be read");
   } catch (const YAML::Exception& error) {
     throw input_error("not YAML: " + error.msg, path + ":" + std::to_string(error.mark.line + 1),
-                      "mind indentation, brackets and colons");
+                      "check indentation, brackets and colons");
   }
-  if (!root.IsMap()) throw input_error("is no map of " + what, path, "write `key: value` lines");
+  if (!root.IsMap()) throw input_error("is not a map of " + what, path, "write `key: value` lines");
   return root;
 }
 

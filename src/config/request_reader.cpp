@@ -69,14 +69,14 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
     if (node.IsSequence()) {
       const bool index = words[i].size() < 9 && words[i].find_first_not_of("0123456789") == std::string::npos;
       if (!index || words[i].empty() || std::stoul(words[i]) >= node.size()) {
-        throw input_error("'" + words[i] + "' is no item of a list of " + std::to_string(node.size()), where,
-                          "count from 0");
+        throw input_error("'" + words[i] + "' is not an index of a list with the length " + std::to_string(node.size()),
+                          where, "count from 0");
       }
       node.reset(node[std::stoul(words[i])]);
     } else if (node.IsMap() || node.IsNull() || !node.IsDefined()) {
       node.reset(node[words[i]]);
     } else {
-      throw input_error("'" + words[i - 1] + "' is a value and has no key '" + words[i] + "'", where,
+      throw input_error("'" + words[i - 1] + "' is a single value and has no key '" + words[i] + "'", where,
                         "see docs/use/request.md");
     }
   }
@@ -216,9 +216,10 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
     if (path == "rig") put_rig(root, [&, origin = origin](const std::string&) { return origin; });
   }
   Source source(file, std::move(origins));
-  if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
+  if (!root.IsMap()) throw input_error("the request is not a map of keys", file, "write `key: value` lines");
   if (static_cast<const YAML::Node&>(root)["request"])
-    throw input_error("this is a plan of a data set, no request", file, "give it to bin_scenes dataset");
+    throw input_error("this is a plan of a data set and not a request", file,
+                      "pass it to the command bin_scenes dataset");
   source.collect(all);
   const auto read_over = [&](Request request) {
     KeyReader reader(root, "", source);

@@ -29,7 +29,7 @@ void check_intrinsics(const std::vector<SceneSensor>& sensors) {
     const std::size_t size = sensors[i].k.size();
     if (size != 0 && size != 9)
       throw config::JsonFault{"sensors[" + std::to_string(i) + "].K",
-                              "holds " + std::to_string(size) + " numbers where 9 are due"};
+                              "contains " + std::to_string(size) + " numbers instead of 9"};
   }
 }
 

@@ -23,7 +23,8 @@ std::vector<std::string> sensor_presets() {
 
 Sensor read_sensor_file(const std::string& path) {
   const YAML::Node root = config::preset_keys(path, "sensor keys");
-  if (root["preset"]) throw input_error("a preset names a preset", path, "write the values themselves");
+  if (root["preset"])
+    throw input_error("a preset must not name another preset", path, "write the values of that preset here");
   return config::read_preset<Sensor>(root, path);
 }
 

@@ -126,7 +126,7 @@ YAML::Node load_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::Exception& error) {
     stop_if_cancelled();  // a text that was left off is no YAML
     throw input_error("not YAML: " + error.msg, file + ":" + std::to_string(error.mark.line + 1),
-                      "mind indentation, brackets and colons");
+                      "check indentation, brackets and colons");
   }
 }
 

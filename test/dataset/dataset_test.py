@@ -131,7 +131,7 @@ request:
         self.assertEqual(json.loads((self.folder / "out/scenes/scene_000000/scene.json").read_text())["seed"], 3)
 
     def test_a_request_is_no_plan(self):
-        self.assertIn("no plan of a data set", self.errors("parts: [{model: box.stl, count: 1}]\n")[0])
+        self.assertIn("not a plan of a data set", self.errors("parts: [{model: box.stl, count: 1}]\n")[0])
 
     def test_what_bop_cannot_hold_is_refused_before_the_first_scene(self):
         one, other = "{name: a, width: 32, height: 24}", "{name: b, model: laser_line, width: 32, height: 24}"
