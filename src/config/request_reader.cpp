@@ -54,7 +54,7 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
   const std::size_t equals = text.find('=');
   const std::string where = override.origin.empty() ? "--set " + text : override.origin;
   if (equals == 0 || equals == std::string::npos) {
-    throw input_error("expected key=value", where, "for instance solver.type=bullet");
+    throw input_error("expected key=value", where, "write, for instance, solver.type=bullet");
   }
   const std::vector<std::string> words = split(text.substr(0, equals));
   YAML::Node value;
@@ -133,8 +133,8 @@ void go_on_from_scene(Request& request, const Where& where, const std::function<
     }
     if (given(key + ".count") && line.count != poses[i].size()) {
       throw input_error("'" + key + ".count' is " + std::to_string(line.count) + ", but the scene has " +
-                            std::to_string(poses[i].size()) + " of them",
-                        where(key + ".count"), "leave count out to take them all");
+                            std::to_string(poses[i].size()) + " of these parts",
+                        where(key + ".count"), "remove count to use all of them");
     }
     line.count = poses[i].size();
     line.poses = std::move(poses[i]);
@@ -194,7 +194,7 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
   }
   if (!request.pour.scene.empty()) {
     if (request.pour.pattern != Pour::Pattern::given) {
-      throw input_error("'pour.scene' needs pattern given", where("pour.scene"), "set pour.pattern: given");
+      throw input_error("'pour.scene' needs the pattern `given`", where("pour.scene"), "set pour.pattern: given");
     }
     request.pour.scene = resolve_file(request.pour.scene, base, rules, where("pour.scene"));
     go_on_from_scene(request, where, given);

@@ -32,7 +32,7 @@ YAML::Node put_rig(YAML::Node request, const std::function<std::string(const std
                       meant.empty() ? remedy : "did you mean '" + meant + "'?");
   }
   if (read_only["sensors"])
-    throw input_error("'rig' and 'sensors' both give sensors", where("sensors"), "keep one of them");
+    throw input_error("'rig' and 'sensors' both give sensors", where("sensors"), "remove one of both");
   const YAML::Node file = YAML::LoadFile((folder / (wanted + ".yaml")).string());
   request["sensors"] = file["sensors"];
   request.remove("rig");

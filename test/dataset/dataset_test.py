@@ -61,7 +61,7 @@ draw: {'parts[0].count': {choice: [1]}}
 amount: {parts: 3}
 """
         lines = self.errors(text % "")
-        self.assertIn("bad.yaml:3: 'draw.parts[0].count': amount sets it (keep one of the two)", "\n".join(lines))
+        self.assertIn("bad.yaml:3: 'draw.parts[0].count': amount sets this value as well (remove one of both)", "\n".join(lines))
         self.assertEqual(len(lines), 1, lines)
         (self.folder / "fixed.yaml").write_text(text % ", fixed: true, poses: [[0, 0, 0.1, 0, 0, 0, 1]]")  # which amount leaves alone
         self.make("fixed.yaml", "out")

@@ -79,10 +79,11 @@ constexpr double most_paths = 4e9;
 
 void check_picture(const ImageLamp& lamp, const std::string& key) {
   if (lamp.type != ImageLamp::Type::dome)
-    throw input_error("applies only to lamps of type dome", key, "give type: dome, or leave it out");
+    throw input_error("applies only to lamps of type dome", key,
+                      "set the type of the lamp to dome, or remove this key");
   try {
     if (!(Sky(read_panorama(lamp.picture), Rgb::Ones(), 0.0).flux() > 0.0))
-      throw input_error("is black", lamp.picture, "give a picture that shines");
+      throw input_error("is black", lamp.picture, "use a picture with pixels that are not black");
   } catch (const Error& error) {
     throw input_error("'" + lamp.picture + "' " + error.problem(), key, error.remedy());
   }
@@ -93,23 +94,24 @@ void check(const Sensor& sensor, const std::string& key) {
   if (s.bits != 8 && s.bits != 16)
     throw input_error("is " + std::to_string(s.bits), key + ".image.bits", "give 8 or 16");
   if ((s.samples & (s.samples - 1)) != 0)
-    throw input_error(std::to_string(s.samples) + " is no power of two", key + ".image.samples",
+    throw input_error(std::to_string(s.samples) + " is not a power of two", key + ".image.samples",
                       "give 4, 8, 16, 32, ...");
   if (s.denoise && s.samples < 4)
-    throw input_error("needs at least 4 samples", key + ".image.denoise", "give more samples, or denoise: false");
+    throw input_error("needs at least 4 samples", key + ".image.denoise",
+                      "increase `samples`, or set `denoise: false`");
   const double paths = static_cast<double>(sensor.width) * sensor.height * s.samples;
   if (sensor.model == "image" && paths > most_paths) {
     throw input_error(std::to_string(s.samples) + " for each of " + std::to_string(sensor.width) + " x " +
                           std::to_string(sensor.height) + " pixels are " +
                           std::to_string(static_cast<int>(paths / 1e9)) +
-                          " billion paths; 4 billion are the most, some 20 minutes of a core",
+                          " billion paths; at most 4 billion are allowed, which take about 20 minutes on one core",
                       key + ".image.samples", "give fewer samples or pixels");
   }
   for (std::size_t i = 0; i < s.lamps.size(); ++i) {
     const ImageLamp& lamp = s.lamps[i];
     if (lamp.type == ImageLamp::Type::ring && !(lamp.inner < lamp.outer))
       throw input_error("is not below the outer radius", key + ".lamps[" + std::to_string(i) + "].inner",
-                        "m; 0 = a disk");
+                        "give a radius (m) below `outer`, or 0 for a disk");
     if (!lamp.picture.empty()) check_picture(lamp, key + ".lamps[" + std::to_string(i) + "].picture");
   }
 }

@@ -56,14 +56,14 @@ void check(const Sensor& sensor, const std::string& key) {
   check_baseline(key + ".laser.baseline", sensor.laser.baseline);
   const Vec3& direction = sensor.scan.direction;
   if (!direction.allFinite() || !(direction.norm() > 0.0))
-    throw input_error("is no direction", key + ".scan.direction", "for instance [1, 0, 0]");
+    throw input_error("has length 0", key + ".scan.direction", "give a direction, for instance [1, 0, 0]");
 }
 
 void check_places(const Sensor& sensor, const std::string& where) {
   const Vec3 sheet = sensor.laser.pose->orientation * Vec3::UnitX();
   if (std::abs(sheet.dot(sensor.laser.pose->position - sensor.pose->position)) < 1e-6)
-    throw input_error("the sheet of light passes the camera: there is no triangle to measure with", where,
-                      "move the laser across its sheet (x of its frame), or give it a baseline");
+    throw input_error("the sheet of light contains the camera, so that nothing can be measured by triangulation", where,
+                      "move the laser along the x axis of its frame, or give a baseline");
 }
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,

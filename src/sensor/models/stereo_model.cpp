@@ -183,17 +183,19 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
 void check(const Sensor& sensor, const std::string& key) {
   const auto& s = sensor.settings.of<StereoSettings>();
   if (s.disparities % 16 != 0)
-    throw input_error("is no multiple of 16", key + ".stereo.disparities", "the matcher wants one: 64, 128, 256");
-  if (s.window % 2 == 0) throw input_error("is even", key + ".stereo.window", "5, 7 or 9 is usual");
+    throw input_error("is not a multiple of 16", key + ".stereo.disparities", "give 64, 128 or 256, for instance");
+  if (s.window % 2 == 0) throw input_error("is even", key + ".stereo.window", "give an odd number, usually 5, 7 or 9");
   const auto& pipeline = sensor.settings.of<StereoPipeline>();
-  if (pipeline.census % 2 == 0) throw input_error("is even", key + ".stereo.census", "5, 7 or 9 is usual");
+  if (pipeline.census % 2 == 0)
+    throw input_error("is even", key + ".stereo.census", "give an odd number, usually 5, 7 or 9");
   if (pipeline.matcher == StereoMatcher::census && s.window > most_census_window(pipeline.census))
-    throw input_error("window and census are too large together", key + ".stereo.window",
-                      "at most " + std::to_string(most_census_window(pipeline.census)) + " with this census");
+    throw input_error(
+        "`window` and `census` together are too large", key + ".stereo.window",
+        "give a window of at most " + std::to_string(most_census_window(pipeline.census)) + " with this census");
   if (sensor.model == "stereo" &&
       std::any_of(sensor.distortion.begin(), sensor.distortion.end(), [](double d) { return d != 0.0; })) {
     throw input_error("a stereo camera delivers rectified images, which have no distortion", key + ".distortion",
-                      "leave it out");
+                      "remove this key");
   }
 }
 
@@ -214,9 +216,9 @@ void check_places(const Sensor& sensor, const std::string& where) {
   const auto& s = sensor.settings.of<StereoSettings>();
   const double least = matched_lens(sensor).fx * s.baseline / sensor.far;
   if (sensor.fidelity == Fidelity::decoded && least + s.disparities > most)
-    throw input_error("disparities of " + std::to_string(std::lround(least)) + " (at far) to " +
+    throw input_error("the depth range needs disparities of " + std::to_string(std::lround(least)) + " (at far) to " +
                           std::to_string(std::lround(least + s.disparities)) + " pixels, more than the " +
-                          std::to_string(most) + " that are matched",
+                          std::to_string(most) + " that the matcher can find",
                       where, "lower stereo.disparities, baseline or width, or set far farther away");
 }
 

@@ -83,15 +83,15 @@ void check_reflection(const Sensor& sensor, const std::string& key) {
   const ReflectionFilter& filter = sensor.settings.of<FilterSettings>().reflection;
   if (filter.step == 0.0) return;
   if (sensor.model != "structured_light")
-    throw input_error("compares fringes, and model " + sensor.model + " projects none", key,
-                      "leave it out, or take structured_light");
+    throw input_error("compares fringes, but model " + sensor.model + " does not project fringes", key,
+                      "remove this key, or use the model structured_light");
   const double ratio = filter.period / s.period;
   if (ratio > 0.8 && ratio < 1.25)
-    throw input_error("is nearly that of the first fringe: light that bounced moves both alike", key + ".period",
-                      "a third of structured_light.period or less is usual");
+    throw input_error("is nearly the period of the first fringe, so that indirect light shifts both equally",
+                      key + ".period", "give a shorter period, usually at most a third of structured_light.period");
   if (s.defocus > 0.5 * filter.period)
-    throw input_error("is less than twice structured_light.defocus: that fringe would be grey", key + ".period",
-                      "give a longer period");
+    throw input_error("is less than twice structured_light.defocus, so that the blur would remove the fringe",
+                      key + ".period", "give a longer period");
 }
 
 void check(const Sensor& sensor, const std::string& key) {
@@ -100,7 +100,8 @@ void check(const Sensor& sensor, const std::string& key) {
   check_reflection(sensor, key + ".filter.reflection");
   const std::string section = key + ".structured_light";
   if (s.defocus > 0.5 * s.period)
-    throw input_error("is more than half a period", section + ".defocus", "projector pixels; 0 = sharp");
+    throw input_error("is more than half a period", section + ".defocus",
+                      "give fewer projector pixels, or 0 for a sharp pattern");
   if (sensor.model != "structured_light" || s.gray_bits == 0) return;
   int needed = 1;  // the code counts half periods: models/fringes.hpp
   while (std::ldexp(1.0, needed) < 2.0 * std::ceil(sensor.projector.width / s.period)) ++needed;
@@ -114,8 +115,9 @@ void check(const Sensor& sensor, const std::string& key) {
 
 void check_places(const Sensor& sensor, const std::string& where) {
   if ((sensor.projector.pose->position - sensor.pose->position).norm() < 1e-6)
-    throw input_error("the projector stands at the camera: there is no triangle to measure with", where,
-                      "move it aside, or give it a baseline");
+    throw input_error(
+        "the projector is at the position of the camera, so that nothing can be measured by triangulation", where,
+        "move the projector sideways, or give a baseline");
 }
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
