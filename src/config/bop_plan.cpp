@@ -62,7 +62,7 @@ class BopReader {
       else if (name != "symmetries")
         complain_(
             "is unknown", name,
-            "known are layout, format, modalities, evaluate, visible, tolerance, symmetries, masks, most_targets");
+            "the keys are layout, format, modalities, evaluate, visible, tolerance, symmetries, masks, most_targets");
     }
   }
 
@@ -113,7 +113,7 @@ class BopReader {
     } catch (const Mismatch& mismatch) {
       return complain_("expected " + mismatch.expected, "most_targets", "bop_toolkit keeps 100 estimates an image");
     }
-    if (plan_.most_targets == 0) complain_("must be at least 1", "most_targets", "leave it out for any number");
+    if (plan_.most_targets == 0) complain_("must be at least 1", "most_targets", "remove the key to allow any number");
   }
 
   bool is_sensor(const std::string& name, const std::string& key) {

@@ -72,7 +72,7 @@ class Reader {
       const std::string name = item.first.Scalar();
       const bool known = name == kind || (kind == "normal" && (name == "min" || name == "max")) ||
                          (kind == "choice" && name == "weights");
-      if (!known) complain("'" + name + "' has no meaning beside '" + kind + "'", "remove it");
+      if (!known) complain("'" + name + "' cannot be combined with '" + kind + "'", "remove it");
     }
     return good_ ? std::optional<Distribution>(d) : std::nullopt;
   }
@@ -111,7 +111,7 @@ class Reader {
     for (const char* end : {"min", "max"}) {
       if (!node_[end] || d.kind != Kind::normal) continue;
       const auto bound = number_of(node_[end]);
-      if (!bound) complain(std::string(end) + " is no number", "give a number, or leave it out");
+      if (!bound) complain(std::string(end) + " is not a number", "give a number, or remove this key");
       (std::string(end) == "min" ? d.min : d.max) = bound;
     }
     if (d.min && d.max && *d.min > *d.max) complain("min is above max", "swap them");
@@ -120,7 +120,7 @@ class Reader {
   void read_choice(Distribution& d, const YAML::Node& value) {
     d.kind = Kind::choice;
     if (!value.IsSequence() || value.size() == 0) {
-      complain("choice needs a list of values", "for instance choice: [0.3, 0.5]");
+      complain("choice needs a list of values", "write, for instance, choice: [0.3, 0.5]");
       return;
     }
     for (const YAML::Node& item : value) d.values.push_back(flow_text(item));
@@ -128,13 +128,13 @@ class Reader {
     const YAML::Node weights = node_["weights"];
     if (!weights) return;
     if (!weights.IsSequence() || weights.size() != d.values.size()) {
-      complain("weights are not as many as values", "give one weight a value");
+      complain("the number of weights differs from the number of values", "give one weight for each value");
       return;
     }
     double sum = 0.0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
       const auto weight = number_of(weights[i]);
-      if (!weight || *weight < 0.0) complain("a weight is negative or no number", "give 0 or more");
+      if (!weight || *weight < 0.0) complain("a weight is negative or not a number", "give numbers that are 0 or more");
       sum += d.weights[i] = weight.value_or(0.0);
     }
     if (!(sum > 0.0)) complain("all weights are 0", "give at least one above 0");
@@ -143,7 +143,8 @@ class Reader {
   void read_jitter(Distribution& d, const YAML::Node& value) {
     d.kind = Kind::jitter;
     if (!value.IsMap() || !value["pose"]) {
-      complain("jitter needs the pose that it moves", "jitter: {pose: [x, y, z, qx, qy, qz, qw], move: m, turn: rad}");
+      complain("jitter needs the pose that it changes",
+               "write jitter: {pose: [x, y, z, qx, qy, qz, qw], move: m, turn: rad}");
       return;
     }
     for (const auto& item : value) {
@@ -156,19 +157,20 @@ class Reader {
         else if (name == "turn")
           read_value(item.second, d.angle);
         else
-          complain("jitter knows no '" + name + "'", "known are pose, move and turn");
+          complain("jitter has no key '" + name + "'", "its keys are pose, move and turn");
       } catch (const Mismatch& mismatch) {
         complain(name + ": expected " + mismatch.expected, "see docs/use/datasets.md");
       }
     }
-    if (!(d.move >= 0.0) || !(d.angle >= 0.0)) complain("move and turn must be 0 or more", "give m and rad");
+    if (!(d.move >= 0.0) || !(d.angle >= 0.0))
+      complain("move and turn must be 0 or more", "give move in m, and turn in rad");
   }
 
   void read_view(Distribution& d, const YAML::Node& value) {
     d.kind = Kind::view;
     if (!value.IsMap() || !value["distance"]) {
       complain("view needs a distance",
-               "view: {distance: {uniform: [0.8, 1.0]}, tilt: ..., turn: ..., target: [x, y, z]}");
+               "write view: {distance: {uniform: [0.8, 1.0]}, tilt: ..., turn: ..., target: [x, y, z]}");
       return;
     }
     for (const auto& item : value) {
@@ -185,10 +187,10 @@ class Reader {
         try {
           read_value(item.second, d.target);
         } catch (const Mismatch& mismatch) {
-          complain("target: expected " + mismatch.expected, "m, in the bin frame");
+          complain("target: expected " + mismatch.expected, "give a position (m) in the bin frame");
         }
       } else
-        complain("view knows no '" + name + "'", "known are distance, tilt, turn, roll and target");
+        complain("view has no key '" + name + "'", "its keys are distance, tilt, turn, roll and target");
     }
   }
 
@@ -332,7 +334,7 @@ std::optional<Distribution> read_number(const YAML::Node& node, const std::strin
     return read;
   }
   source.complain(input_error("'" + path + "': expected a number, uniform or normal", line_of(node, path, source),
-                              "for instance {uniform: [0.1, 0.2]}"));
+                              "write, for instance, {uniform: [0.1, 0.2]}"));
   return std::nullopt;
 }
 

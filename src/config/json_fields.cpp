@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void refuse(const Json& json, const std::string& path, const std::string& wanted) {
   const std::string held = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  throw JsonFault{path, "holds " + held.substr(0, 40) + " where " + wanted + " is due"};
+  throw JsonFault{path, "is " + held.substr(0, 40) + ", but must be " + wanted};
 }
 
 /// A whole number that its type can hold; the cast of another one may be anything.

@@ -114,7 +114,7 @@ class SchemaWriter {
 
  private:
   Json& add(const Key& key, Json schema) {
-    schema["description"] = std::string(*key.unit ? std::string(key.unit) + ": " : "") + key.text;
+    schema["description"] = described(key);
     if (key.needed) needed_.push_back(key.name);
     return keys_[key.name] = std::move(schema);
   }

@@ -94,7 +94,7 @@ KeyReader::KeyReader(YAML::Node map, std::string path, Source& source)
     source_.remember(path_of(name), item.first);
     if (!seen.insert(name).second) {
       source_.complain(
-          input_error("'" + path_of(name) + "' is given twice", source_.where(path_of(name)), "keep one of them"));
+          input_error("'" + path_of(name) + "' is given twice", source_.where(path_of(name)), "remove one of both"));
     }
   }
 }

@@ -96,7 +96,7 @@ class KeyReader {
     const YAML::Node node = take(key);
     if (!node || node.IsNull()) return;
     if (!node.IsSequence()) {
-      source_.complain(wrong_type(path_of(key.name), "a list, each item starting with '-'", node));
+      source_.complain(wrong_type(path_of(key.name), "a list, in which each entry starts with '-'", node));
       return;
     }
     values.clear();

@@ -55,7 +55,7 @@ fs::path find_package(const std::string& package, const PathRules& rules, const 
   if (rules.find_package) {
     const std::string folder = rules.find_package(package);
     if (folder.empty()) {
-      throw input_error("rospack finds no package '" + package + "'", where,
+      throw input_error("rospack does not find the package '" + package + "'", where,
                         "source the workspace that has it before the node starts, or write a path");
     }
     return folder;
@@ -130,7 +130,7 @@ std::string resolve_file(const std::string& written, const std::string& base, co
     const std::string rest = written.substr(scheme.size());
     const std::size_t slash = rest.find('/');
     if (slash == 0 || slash == std::string::npos || slash + 1 == rest.size()) {
-      throw input_error("'" + written + "' names no file", where, "write package://name/path/to/file");
+      throw input_error("'" + written + "' does not name a file", where, "write package://name/path/to/file");
     }
     path = find_package(rest.substr(0, slash), rules, where) / rest.substr(slash + 1);
   } else if (path.is_relative()) {
@@ -143,7 +143,7 @@ std::string resolve_file(const std::string& written, const std::string& base, co
   const fs::path real = fs::weakly_canonical(path, error);
   if (error) throw input_error("cannot follow '" + path.string() + "': " + error.message(), where, "check the path");
   if (!allowed(real, rules)) {
-    throw input_error("'" + written + "' lies outside of " + rules.roots_name + " (" + listed(rules.roots) + ")", where,
+    throw input_error("'" + written + "' is outside of " + rules.roots_name + " (" + listed(rules.roots) + ")", where,
                       "move it there, or add its folder to " + rules.roots_name);
   }
   if (!fs::exists(real, error)) {

@@ -38,10 +38,10 @@ class PlanFile {
   Plan read() {
     plan_.text = read_file(path_, config::longest_text);
     const YAML::Node root = config::load_yaml(plan_.text, path_);
-    if (!root.IsMap()) throw input_error("the plan is no map of keys", path_, "see docs/use/datasets.md");
+    if (!root.IsMap()) throw input_error("the plan is not a map of keys", path_, "see docs/use/datasets.md");
     if (!own_value(root, "request") && own_value(root, "parts"))
-      throw input_error("this is a request, no plan of a data set", path_,
-                        "write scenes: N and request: FILE in a plan");
+      throw input_error("this is a request and not a plan of a data set", path_,
+                        "write `scenes: N` and `request: FILE` in a plan");
     YAML::Node deciding = YAML::Clone(root);
     deciding.remove("scenes");
     deciding_ = config::flow_text(deciding);
@@ -71,23 +71,24 @@ class PlanFile {
     keys.field({"scenes", "", ""}, plan_.heaps);
     keys.field({"attempts", "", ""}, plan_.attempts);
     if (plan_.heaps < 1 || plan_.heaps > 1'000'000'000)
-      complain("must be 1 to 1000000000", "scenes", "number of heaps");
-    if (plan_.attempts < 1 || plan_.attempts > 1000) complain("must be 1 to 1000", "attempts", "3 is the default");
+      complain("must be 1 to 1000000000", "scenes", "give the number of heaps");
+    if (plan_.attempts < 1 || plan_.attempts > 1000) complain("must be 1 to 1000", "attempts", "the default is 3");
     read_outputs(keys.node({"outputs", "", ""}));
     read_mcap(keys.node({"mcap", "", ""}));
     if (!keys.node({"request", "", ""})) complain("is missing", "request", "give a request, or the path of its file");
     read_draws(keys.node({"draw", "", ""}));
     read_amount(keys.node({"amount", "", ""}));
     keys.field({"surfaces", "", ""}, state_->surfaces);
-    if (state_->surfaces < 1 || state_->surfaces > 100) complain("must be 1 to 100", "surfaces", "1 is the default");
+    if (state_->surfaces < 1 || state_->surfaces > 100) complain("must be 1 to 100", "surfaces", "the default is 1");
     read_depletion(keys.node({"depletion", "", ""}));
     remember_bop(keys.node({"bop", "", ""}));
     keys.field({"not_poured", "", ""}, plan_.most_not_poured);
     if (!(plan_.most_not_poured >= 0.0 && plan_.most_not_poured <= 1.0))
-      complain("must be 0 to 1", "not_poured", "share of a heap's parts that may find no room");
+      complain("must be 0 to 1", "not_poured", "give the share of a heap's parts for which the bin may have no room");
     keys.field({"shard_size", "", ""}, plan_.shard_size);
     if (plan_.shard_size < 1 || plan_.shard_size > largest_shard)
-      complain("must be 1 to " + std::to_string(largest_shard), "shard_size", "images in a shard, as BOP limits them");
+      complain("must be 1 to " + std::to_string(largest_shard), "shard_size",
+               "give the number of images in a shard, which BOP limits");
     read_split(keys.node({"split", "", ""}));
     keys.finish();
   }
@@ -95,19 +96,21 @@ class PlanFile {
   void read_outputs(const YAML::Node& node) {
     plan_.formats = {"json"};
     if (!node) return;
-    if (!node.IsSequence()) return complain("expected a list", "outputs", "of " + format_names("and", {"shards"}));
+    if (!node.IsSequence())
+      return complain("expected a list", "outputs", "list some of " + format_names("and", {"shards"}));
     plan_.formats.clear();
     for (const YAML::Node& item : node) {
       const std::string name = item.IsScalar() ? item.Scalar() : "";
       if (!find_scene_format(name) && name != "shards")
-        complain("unknown output '" + name + "'", "outputs", "known are " + format_names("and", {"shards"}));
+        complain("unknown output '" + name + "'", "outputs", "use " + format_names("and", {"shards"}));
       plan_.formats.push_back(name);
     }
   }
 
   void read_mcap(const YAML::Node& node) {
     if (!node) return;
-    if (!plan_.wants("mcap")) complain("says which MCAP file to write, but outputs has none", "mcap", "add mcap to it");
+    if (!plan_.wants("mcap"))
+      complain("selects the kind of MCAP file, but `outputs` does not contain mcap", "mcap", "add mcap to `outputs`");
     try {
       plan_.mcap = mcap_profile_of(node.IsScalar() ? node.Scalar() : "", source_.where("mcap"));
     } catch (const Error& error) {
@@ -119,13 +122,14 @@ class PlanFile {
     if (!node || node.IsNull()) return;
     if (!node.IsMap())
       return complain("expected a map from keys of the request to distributions", "draw",
-                      "for instance parts[0].friction: {uniform: [0.3, 0.6]}");
+                      "write, for instance, parts[0].friction: {uniform: [0.3, 0.6]}");
     std::set<std::string> seen;
     for (const auto& item : node) {
       const std::string path = item.first.Scalar(), key = "draw." + path;
       source_.remember(key, item.first);
-      if (!seen.insert(path).second) complain("is drawn twice", key, "keep one of them");
-      if (path == "seed" || path == "scenes" || path == "first") complain("belongs to the plan", key, "remove it");
+      if (!seen.insert(path).second) complain("is drawn twice", key, "remove one of both");
+      if (path == "seed" || path == "scenes" || path == "first")
+        complain("is a key of the plan and cannot be drawn", key, "remove it");
       const auto distribution = config::read_distribution(item.second, key, source_);
       if (distribution) state_->draws.push_back({path, source_.where(key), *distribution});
     }
@@ -134,7 +138,7 @@ class PlanFile {
   void read_amount(const YAML::Node& node) {
     if (!node) return;
     if (!node.IsMap() || (!node["parts"] && !node["fill"]))
-      return complain("needs parts or fill", "amount", "for instance amount: {parts: {uniform: [20, 60]}}");
+      return complain("needs parts or fill", "amount", "write, for instance, amount: {parts: {uniform: [20, 60]}}");
     for (const auto& item : node) {
       const std::string name = item.first.Scalar(), key = "amount." + name;
       source_.remember(key, item.first);
@@ -145,9 +149,10 @@ class PlanFile {
       else if (name == "shares")
         read_shares(item.second);
       else
-        complain("is unknown", key, "known are parts, fill and shares");
+        complain("is unknown", key, "the keys are parts, fill and shares");
     }
-    if (node["parts"] && node["fill"]) complain("parts and fill both say how many there are", "amount", "keep one");
+    if (node["parts"] && node["fill"])
+      complain("parts and fill both state the number of parts", "amount", "remove one of both");
     check_bounds(state_->amount.parts, "amount.parts", 1, 1e6);
     check_bounds(state_->amount.fill, "amount.fill", 1e-6, 1.0);
   }
@@ -167,7 +172,7 @@ class PlanFile {
     try {
       config::read_value(node, state_->amount.shares);
     } catch (const config::Mismatch& mismatch) {
-      return complain("expected " + mismatch.expected, "amount.shares", "one number a part line");
+      return complain("expected " + mismatch.expected, "amount.shares", "give one number for each part line");
     }
     double sum = 0.0;
     for (const double share : state_->amount.shares) {
@@ -181,7 +186,7 @@ class PlanFile {
     if (!node) return;
     if (!node.IsMap() || !node["steps"] || !node["take"])
       return complain("needs steps and take", "depletion",
-                      "for instance depletion: {steps: 4, take: {uniform: [3, 8]}}");
+                      "write, for instance, depletion: {steps: 4, take: {uniform: [3, 8]}}");
     for (const auto& item : node) {
       const std::string name = item.first.Scalar(), key = "depletion." + name;
       source_.remember(key, item.first);
@@ -193,21 +198,23 @@ class PlanFile {
         try {
           config::read_value(item.second, plan_.depletion.steps);
         } catch (const config::Mismatch& mismatch) {
-          complain("expected " + mismatch.expected, key, "scenes of a heap beside the first");
+          complain("expected " + mismatch.expected, key,
+                   "give the number of scenes of a heap in addition to the first");
         }
       } else {
-        complain("is unknown", key, "known are steps and take");
+        complain("is unknown", key, "the keys are steps and take");
       }
     }
     check_bounds(state_->take, "depletion.take", 1, 1e6);  // a step that takes nothing would show a scene twice
-    if (plan_.depletion.steps > 100'000) complain("must be at most 100000", "depletion.steps", "take more at a time");
+    if (plan_.depletion.steps > 100'000)
+      complain("must be at most 100000", "depletion.steps", "remove more parts in each step");
   }
 
   /// take: {order: grasp}: one part at a time.
   void read_order(const YAML::Node& take, const std::string& key) {
     if (take.size() != 1 || !take["order"].IsScalar() || take["order"].Scalar() != "grasp")
       return complain("expected {order: grasp}", key,
-                      "or a distribution of how many of the highest parts go at a time");
+                      "or give a distribution of the number of highest parts that are removed in each step");
     plan_.depletion.by_grasp = true;
     state_->take = config::read_number(YAML::Load("1"), key, source_);
   }
@@ -251,7 +258,8 @@ class PlanFile {
       if (!(share >= 0.0)) complain("share of '" + name + "' is " + config::text_of(share), "split", "give 0 or more");
       if (name.empty() || name == "models" || name == "models_eval" ||
           name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
-        complain("'" + name + "' is no name of a folder of BOP", "split", "use small letters, digits and _");
+        complain("'" + name + "' cannot be the name of a split", "split",
+                 "use small letters, digits and _, and not models or models_eval");
       sum += share;
       plan_.split.emplace_back(name, share);
     }
@@ -287,7 +295,7 @@ class PlanFile {
       plan_.reference = config::read_document(state_->request, state_->file, state_->base, {}, {}, &found);
       for (const char* key : {"seed", "scenes", "first"})
         if (own_value(state_->request, key))
-          found.push_back(input_error(std::string("'") + key + "' belongs to the plan", state_->file,
+          found.push_back(input_error(std::string("'") + key + "' is a key of the plan", state_->file,
                                       "remove it from the request"));
     } catch (const Error& error) {
       found.push_back(error);
@@ -298,7 +306,7 @@ class PlanFile {
     if (errors_.empty() && !shares.empty() && shares.size() != plan_.reference.parts.size())
       complain("has " + std::to_string(shares.size()) + " numbers for " + std::to_string(plan_.reference.parts.size()) +
                    " part lines",
-               "amount.shares", "give one a line");
+               "amount.shares", "give one number for each part line");
   }
 
   /// `amount` sets the counts of all lines but the fixed ones.
@@ -312,7 +320,8 @@ class PlanFile {
   /// A draw that cannot be right is found here instead of after hours: each end is put into the request alone.
   void try_ends() {
     for (const config::Draw& draw : state_->draws) {
-      if (set_by_amount(draw.path)) complain("amount sets it", "draw." + draw.path, "keep one of the two");
+      if (set_by_amount(draw.path))
+        complain("amount sets this value as well", "draw." + draw.path, "remove one of both");
       const YAML::Node own = own_value(state_->request, draw.path);
       if (draw.distribution.kind == Kind::times && !own) {
         complain("the request has no value to multiply", "draw." + draw.path, "write the value into the request");
@@ -336,7 +345,7 @@ class PlanFile {
         // A map that is no distribution is a value, which a key may or may not take.
         const bool map = draw.distribution.kind == Kind::constant && end[0] == '{';
         errors_.push_back(input_error("'draw." + draw.path + "' with " + end + ": " + found[0].problem(), draw.where,
-                                      map ? "of distributions, " + config::known_distributions() : found[0].remedy()));
+                                      map ? "use distributions: " + config::known_distributions() : found[0].remedy()));
         break;
       }
     }
@@ -350,15 +359,15 @@ class PlanFile {
   void check_outputs() {
     if (const auto why = config::misfit(plan_, plan_.reference)) complain(why->problem(), "outputs", why->remedy());
     if (plan_.wants("shards") && plan_.shard_size < plan_.reference.sensors.size())
-      complain("is less than the images of one scene", "shard_size", "give at least as many as there are sensors");
+      complain("is less than the number of images of one scene", "shard_size", "give at least the number of sensors");
     if (!plan_.wants("bop") && !plan_.wants("shards")) return;
     config::note_losses(plan_, state_->amount.parts);
     for (const config::Draw& draw : state_->draws) {
       const std::size_t dot = draw.path.rfind('.');
       const std::string name = draw.path.substr(dot == std::string::npos ? 0 : dot + 1);
       if ((name == "scale" || name == "thickness") && draw.distribution.kind != Kind::choice)
-        complain("BOP has one file a model, and here each heap has its own size", "draw." + draw.path,
-                 "draw it by choice, or leave bop and shards out");
+        complain("BOP has one file for each model, but here each heap has models of another size", "draw." + draw.path,
+                 "draw it by `choice`, or remove bop and shards from `outputs`");
     }
   }
 

@@ -54,12 +54,12 @@ YAML::Node keys_of(const std::string& path, const std::string& what) {
   try {
     root = YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {
-    throw input_error("cannot be read", path, "name a file of " + what + " that is there and readable");
+    throw input_error("cannot be read", path, "name a file of " + what + " that exists and can be read");
   } catch (const YAML::Exception& error) {
     throw input_error("not YAML: " + error.msg, path + ":" + std::to_string(error.mark.line + 1),
-                      "mind indentation, brackets and colons");
+                      "check indentation, brackets and colons");
   }
-  if (!root.IsMap()) throw input_error("is no map of " + what, path, "write `key: value` lines");
+  if (!root.IsMap()) throw input_error("is not a map of " + what, path, "write `key: value` lines");
   return root;
 }
 
@@ -67,7 +67,8 @@ template <class Struct>
 Struct read_preset_file(const std::string& path) {
   const std::string key = preset_kind<Struct>.key;
   const YAML::Node root = keys_of(path, preset_kind<Struct>.keys);
-  if (root[key]) throw input_error("a " + key + " names a " + key, path, "write the values themselves");
+  if (root[key])
+    throw input_error("a " + key + " must not name another " + key, path, "write the values of that " + key + " here");
   Struct value;
   config::Source source(path, {});
   config::KeyReader reader(root, "", source);

@@ -67,8 +67,8 @@ class ChapterWriter {
       if (!directly_below(e.path) || !heading(e)) continue;
       const std::string below = chapter(e.path + (e.kind == "list" ? "[]." : "."), level + "#");
       const auto [same, fresh] = known_.emplace(below, e.path);
-      text += "\n" + level + " `" + e.path + "`: " + e.text + "\n\n" +
-              (fresh ? below : "The keys of `" + same->second + "`.\n");
+      text += "\n" + level + " `" + e.path + "`\n" + e.text + "\n\n" +
+              (fresh ? below : "This section has the same keys as `" + same->second + "`.\n");
     }
     return text;
   }
@@ -104,46 +104,65 @@ std::string key_chapters(const std::vector<Entry>& entries, bool defaults) {
 
 }  // namespace config
 
+namespace {
+
+constexpr const char* request_head = R"head(# The request
+
+<!-- Made by `bin_scenes reference > docs/use/request.md` from src/scene/keys.hpp and src/sensor; a test compares. -->
+
+This page lists all keys of a request. A request is a YAML file that describes the bin, the parts, the pour, the
+solver and the sensors. The command `bin_scenes generate` and the parameter `request` of the ROS node read this
+file. For example, this request pours 60 bolts into a box and takes a depth image of them:
+
+```yaml
+seed: 7
+bin: {inner_size: [0.40, 0.30, 0.20], friction: 0.5}   # or {mesh: path.stl}, {floor: true}, {none: true}
+parts:
+  - {model: bolt.stl, unit: mm, count: 60, density: 7850}
+sensors:
+  - {name: camera, width: 640, height: 480}
+```
+
+All values are in SI units unless the table states another unit. The z axis points up, and the components of a
+quaternion are ordered x y z w. Only the key `parts`, with a `model` in each of its entries, is required. An unknown
+key, a key that is given twice, or a value of the wrong type is an error that states the file and the line.
+
+## Options of the command line
+
+`--set path=value` overrides a key by its path, for example `--set solver.type=bullet`, `--set parts[0].count=20` or
+`--set 'bin.inner_size=[0.6, 0.4, 0.3]'`. The options `--seed`, `--scenes`, `--first`, `--solver` and `--seconds` of
+`bin_scenes generate` override the keys of the same name; `--solver` overrides `solver.type`.
+
+`--seconds T` simulates exactly T seconds. The last time step is shortened if necessary.
+
+`--trace FILE` records the motion of the parts. Samples are recorded at the start, at the time steps nearest to
+multiples of 1 / `--trace-rate` (in Hz of simulated time; the default is 100), and at the end. The extension of the
+file determines its content:
+
+- `--trace FILE.csv` writes one row for each part and sample, with the columns
+  `time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz`: the pose of the model frame and the velocity of the centre of mass, in
+  the bin frame.
+- `--trace FILE.bag` and `--trace FILE.mcap` write the poses as messages on the topic `/tf`, the parts as markers that
+  follow them, and the contacts of each sample on the topic `/contacts`. RViz shows the bag with `rosbag play --clock`,
+  and Foxglove opens both files.
+- `--trace FILE.jsonl` writes poses and contacts for the time slider of `bin_scenes view SCENE --trace FILE.jsonl`.
+
+The colour of a contact point shows the action of the contact: green points rest, yellow points slide, and magenta
+points are pushed apart because the overlap exceeds 0.1 % of the diagonal of the smaller part. Red points had an impact
+since the previous sample.
+
+## Keys
+
+The column *value* states the type and the range of a value. A square bracket includes the limit in the range, and a
+round bracket excludes it. If the column *default* is empty, the column *meaning* states what happens without the key
+wherever this is not obvious.
+
+)head";
+
+}  // namespace
+
 std::string request_reference() {
-  std::string text =
-      "# The request\n"
-      "\n"
-      "<!-- Made by `bin_scenes reference > docs/use/request.md` from src/scene/keys.hpp and src/sensor; a test "
-      "compares. -->\n"
-      "\n"
-      "A request is a YAML file. `bin_scenes generate` reads it, and so does the node's parameter `request`. Units\n"
-      "are SI, z points up, quaternions are x y z w. Every key but `parts` has a default. An unknown key, a key\n"
-      "given twice or a value of the wrong type is an error that names file and line.\n"
-      "\n"
-      "`--set path=value` overrides a key by its path: `--set solver.type=bullet`, `--set parts[0].count=20` or\n"
-      "`--set 'bin.inner_size=[0.6, 0.4, 0.3]'`. The options `--seed`, `--scenes`, `--first`, `--solver` and\n"
-      "`--seconds` of `bin_scenes generate` override the keys of the same name (`--solver` overrides\n"
-      "`solver.type`).\n"
-      "\n"
-      "`--seconds T` simulates exactly T seconds; the last step is cut short if necessary. `--trace FILE.csv`\n"
-      "writes one row a part and sample, `time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz`: the pose of the model\n"
-      "frame and the velocity of the centre of mass, in the bin frame. Samples are taken at the start, at the\n"
-      "steps nearest to multiples of 1 / `--trace-rate` (Hz of simulated time, default 100), and at the end.\n"
-      "`--trace FILE.bag` and `--trace FILE.mcap` write the poses as messages on `/tf`, the parts as markers that\n"
-      "follow them, and the contacts of each sample on `/contacts`, for `rosbag play --clock` and RViz, or for\n"
-      "Foxglove. `--trace FILE.jsonl` writes poses and contacts for the time slider of `bin_scenes view SCENE --trace\n"
-      "FILE.jsonl`. The colour of a contact point states what the contact does: green rests, yellow slides, magenta "
-      "is\n"
-      "pushed apart (an overlap of more than 0.1 % of the diagonal of the smaller part), red is an impact since the\n"
-      "previous sample.\n"
-      "\n"
-      "```yaml\n"
-      "seed: 7\n"
-      "bin: {inner_size: [0.40, 0.30, 0.20], friction: 0.5}   # or {mesh: path.stl}, {floor: true}, {none: true}\n"
-      "parts:\n"
-      "  - {model: bolt.stl, unit: mm, count: 60, density: 7850}\n"
-      "sensors:\n"
-      "  - {name: camera, width: 640, height: 480}\n"
-      "```\n"
-      "\n"
-      "## Keys\n"
-      "\n";
-  return text + config::key_chapters(config::reference(), true);
+  return request_head + config::key_chapters(config::reference(), true);
 }
 
 }  // namespace bin_scenes

@@ -54,7 +54,7 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
   const std::size_t equals = text.find('=');
   const std::string where = override.origin.empty() ? "--set " + text : override.origin;
   if (equals == 0 || equals == std::string::npos) {
-    throw input_error("expected key=value", where, "for instance solver.type=bullet");
+    throw input_error("expected key=value", where, "write, for instance, solver.type=bullet");
   }
   const std::vector<std::string> words = split(text.substr(0, equals));
   YAML::Node value;
@@ -69,14 +69,14 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
     if (node.IsSequence()) {
       const bool index = words[i].size() < 9 && words[i].find_first_not_of("0123456789") == std::string::npos;
       if (!index || words[i].empty() || std::stoul(words[i]) >= node.size()) {
-        throw input_error("'" + words[i] + "' is no item of a list of " + std::to_string(node.size()), where,
-                          "count from 0");
+        throw input_error("'" + words[i] + "' is not an index of a list with the length " + std::to_string(node.size()),
+                          where, "count from 0");
       }
       node.reset(node[std::stoul(words[i])]);
     } else if (node.IsMap() || node.IsNull() || !node.IsDefined()) {
       node.reset(node[words[i]]);
     } else {
-      throw input_error("'" + words[i - 1] + "' is a value and has no key '" + words[i] + "'", where,
+      throw input_error("'" + words[i - 1] + "' is a single value and has no key '" + words[i] + "'", where,
                         "see docs/use/request.md");
     }
   }
@@ -133,8 +133,8 @@ void go_on_from_scene(Request& request, const Where& where, const std::function<
     }
     if (given(key + ".count") && line.count != poses[i].size()) {
       throw input_error("'" + key + ".count' is " + std::to_string(line.count) + ", but the scene has " +
-                            std::to_string(poses[i].size()) + " of them",
-                        where(key + ".count"), "leave count out to take them all");
+                            std::to_string(poses[i].size()) + " of these parts",
+                        where(key + ".count"), "remove count to use all of them");
     }
     line.count = poses[i].size();
     line.poses = std::move(poses[i]);
@@ -194,7 +194,7 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
   }
   if (!request.pour.scene.empty()) {
     if (request.pour.pattern != Pour::Pattern::given) {
-      throw input_error("'pour.scene' needs pattern given", where("pour.scene"), "set pour.pattern: given");
+      throw input_error("'pour.scene' needs the pattern `given`", where("pour.scene"), "set pour.pattern: given");
     }
     request.pour.scene = resolve_file(request.pour.scene, base, rules, where("pour.scene"));
     go_on_from_scene(request, where, given);
@@ -216,9 +216,10 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
     if (path == "rig") put_rig(root, [&, origin = origin](const std::string&) { return origin; });
   }
   Source source(file, std::move(origins));
-  if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
+  if (!root.IsMap()) throw input_error("the request is not a map of keys", file, "write `key: value` lines");
   if (static_cast<const YAML::Node&>(root)["request"])
-    throw input_error("this is a plan of a data set, no request", file, "give it to bin_scenes dataset");
+    throw input_error("this is a plan of a data set and not a request", file,
+                      "pass it to the command bin_scenes dataset");
   source.collect(all);
   const auto read_over = [&](Request request) {
     KeyReader reader(root, "", source);

@@ -13,7 +13,7 @@ YAML::Node put_rig(YAML::Node request, const std::function<std::string(const std
   const std::string wanted = name.IsScalar() ? name.Scalar() : "";
   const std::string path = preset_path(preset_directory("sensors") + "/rigs", wanted, "rig", where("rig"));
   if (read_only["sensors"])
-    throw input_error("'rig' and 'sensors' both give sensors", where("sensors"), "keep one of them");
+    throw input_error("'rig' and 'sensors' both give sensors", where("sensors"), "remove one of both");
   const YAML::Node file = YAML::LoadFile(path);
   request["sensors"] = file["sensors"];
   request.remove("rig");

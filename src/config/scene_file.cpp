@@ -29,7 +29,7 @@ void check_intrinsics(const std::vector<SceneSensor>& sensors) {
     const std::size_t size = sensors[i].k.size();
     if (size != 0 && size != 9)
       throw config::JsonFault{"sensors[" + std::to_string(i) + "].K",
-                              "holds " + std::to_string(size) + " numbers where 9 are due"};
+                              "contains " + std::to_string(size) + " numbers instead of 9"};
   }
 }
 
@@ -57,12 +57,12 @@ std::string report_text(Report report) {
 
 SceneFile read_scene_file(const std::string& path, Strictness strictness) {
   std::ifstream file(path);
-  if (!file) throw input_error("cannot be read", path, "name a scene.json that is there");
+  if (!file) throw input_error("cannot be read", path, "name a scene.json that exists");
   const std::string remedy = "give a scene.json of format " + std::string(scene_format);
   try {
     return read_scene(Json::parse(file), strictness);
   } catch (const Json::parse_error& error) {
-    throw input_error("is no JSON, or cut off: it cannot be read from byte " + std::to_string(error.byte) + " on", path,
+    throw input_error("is not valid JSON, or is incomplete: the error is at byte " + std::to_string(error.byte), path,
                       remedy);
   } catch (const Json::exception& error) {  // numbers beyond all types
     const std::string what = error.what();

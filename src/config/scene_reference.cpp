@@ -44,25 +44,42 @@ struct SceneColumns {
 
 }  // namespace config
 
+namespace {
+
+constexpr const char* scene_head = R"head(# scene.json
+
+<!-- Made by `bin_scenes reference --scene > docs/use/scene.md` from src/scene/report_keys.hpp and
+src/config/scene_file_keys.hpp; a test compares. -->
+
+This page lists all keys of the file `scene.json`, which each scene has. The file contains the poses and states of the
+parts, the sensors, and a report on the quality of the scene. For example, this Python program prints the positions of
+all parts that are at rest:
+
+```python
+import json
+scene = json.load(open("scenes/scene_000000/scene.json"))
+print([p["pose"]["position"] for p in scene["parts"] if p["state"] == "resting"])
+```
+
+All values are in SI units unless the table states another unit. The z axis points up, and the components of a
+quaternion are ordered x y z w. Numbers are written such that they have the same bits when they are read again. A
+number that is not finite is written as null. If a request is run twice on one class of devices, only
+`report.wall_s`, `report.stages_ms` and `report.counters` may differ.
+
+In C++, `read_scene_file()` of `bin_scenes/config/scene_file.hpp` reads the file as a struct. In Python,
+`scene.report` is the map `report`.
+
+## Keys
+
+)head";
+
+}  // namespace
+
 std::string scene_reference() {
   SceneFile scene;
   config::KeyCollector<config::SceneColumns> collector;
   visit(collector, scene);
-  return "# scene.json\n"
-         "\n"
-         "<!-- Made by `bin_scenes reference --scene > docs/use/scene.md` from src/scene/report_keys.hpp and\n"
-         "src/config/scene_file_keys.hpp; a test compares. -->\n"
-         "\n"
-         "Each scene has a file `scene.json`. Units are SI, z points up, quaternions are x y z w. Numbers read back "
-         "as\n"
-         "the same bits. A number that is not finite is null. Of two runs of a request on one class of device, only\n"
-         "`report.wall_s`, `report.stages_ms` and `report.counters` may differ. `read_scene_file()` of\n"
-         "`bin_scenes/config/scene_file.hpp` reads the file as a struct; in Python, `scene.report` is the map "
-         "`report`.\n"
-         "\n"
-         "## Keys\n"
-         "\n" +
-         config::key_chapters(collector.entries, false);
+  return scene_head + config::key_chapters(collector.entries, false);
 }
 
 }  // namespace bin_scenes

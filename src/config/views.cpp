@@ -49,9 +49,9 @@ std::size_t placed_by(const Request& request, std::size_t i, const Where& where,
   }
   if (other == request.sensors.size())
     refuse("'" + sensor.pose_of + "' is no other sensor with a place of its own",
-           known.empty() ? "leave it out, and give a pose" : "one of " + known);
+           known.empty() ? "remove this key, and give a pose" : "one of " + known);
   for (const char* own : {"width", "height", "fov", "k", "distortion", "pose", "views", "projector", "near", "far"})
-    if (given(sensor_key + own)) refuse(std::string("the sensor has ") + own + " of its own", "keep one of them");
+    if (given(sensor_key + own)) refuse(std::string("the sensor has ") + own + " of its own", "remove one of both");
   return other;
 }
 
@@ -92,7 +92,7 @@ void spell_out_views(Request& request, const Where& where, const Given& given) {
       continue;
     }
     const Views& views = sensor.views;
-    if (sensor.pose) refuse("", "the sensor has a pose, too", "keep one of pose and views");
+    if (sensor.pose) refuse("", "the sensor also has the key `pose`", "remove one of both");
     if (views.poses.empty() == (views.count == 0))
       refuse("", "needs either poses or count", "for instance views: {count: 8, distance: 0.8, tilt: 0.5}");
     if (std::max(views.count, views.poses.size()) > most_views)

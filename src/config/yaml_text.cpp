@@ -96,14 +96,15 @@ void check_document(const std::string& text, const std::string& file) {
   Census census;
   if (!parser.HandleNextDocument(census)) return;
   if (census.values() > text.size() / 2 + more_values) {
-    throw input_error("its aliases stand for more than " + std::to_string(text.size() / 2 + more_values) + " values",
-                      file, "write out what is meant");
+    throw input_error(
+        "the aliases of the file expand to more than " + std::to_string(text.size() / 2 + more_values) + " values",
+        file, "write the values instead of aliases");
   }
   // The parser takes no token that starts no value, such as a comma, and would find a document before it for ever.
   Census behind;
   if (parser.HandleNextDocument(behind)) {
-    throw input_error("more follows behind the end of the request", file,
-                      "keep one YAML document a file; a comma or bracket too many ends it as well");
+    throw input_error("the file continues after the end of the request", file,
+                      "write one YAML document in each file; a surplus comma or bracket also ends a document");
   }
 }
 
@@ -112,8 +113,8 @@ void check_document(const std::string& text, const std::string& file) {
 YAML::Node load_yaml(const std::string& text, const std::string& file) {
   if (text.size() > longest_text) {
     throw input_error("has " + std::to_string(text.size() >> 20) + " MiB, more than the " +
-                          std::to_string(longest_text >> 20) + " MiB that are read",
-                      file, "split it");
+                          std::to_string(longest_text >> 20) + " MiB that are allowed",
+                      file, "divide the file");
   }
   try {
     check_document(text, file);
@@ -126,7 +127,7 @@ YAML::Node load_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::Exception& error) {
     stop_if_cancelled();  // a text that was left off is no YAML
     throw input_error("not YAML: " + error.msg, file + ":" + std::to_string(error.mark.line + 1),
-                      "mind indentation, brackets and colons");
+                      "check indentation, brackets and colons");
   }
 }
 

@@ -23,10 +23,10 @@ constexpr int most_samples = 1024;   // rays a node
 constexpr float one_normal = 0.97f;  // cosine: facets of a curved surface that turn by less are one face
 constexpr float one_plane = 0.15f;   // distance off a face's plane / distance on it
 
-/// Nodes lie closer where surfaces are nearer than so many of their distances. Interpolation errs with the square of
-/// the distance between nodes, and noise with the root of the rays: both fall together.
+/// Nodes are closer together where surfaces are nearer than so many of their distances. Of few rays a node errs by more
+/// than interpolation between distant nodes does; only many rays make close nodes worth their time.
 double near_by(int samples) {
-  return std::min(9.0, 4.0 * std::sqrt(std::sqrt(samples / 16.0)));
+  return std::min(9.0, 1.5 * std::sqrt(samples / 16.0));
 }
 
 /// How much faster than of a matte surface the light changes along a shiny one, whose lobe meets less.
@@ -142,14 +142,16 @@ std::size_t IndirectField::central_pixel(const std::vector<std::size_t>& pixels)
   return *std::min_element(pixels.begin(), pixels.end(), [&](std::size_t a, std::size_t b) { return off(a) < off(b); });
 }
 
-/// Rays that a node needs for the standard error of the setup, by the variance of its first rays. Few nodes with many
-/// rays cost less than many nodes with few, for the same error: what varies between nodes is noise first.
+/// The number of rays that a node needs for the standard error of the setup, by the variance of its first rays. Few
+/// nodes with many rays cost less than many nodes with few, for the same error: what varies between nodes is noise
+/// first.
 int IndirectField::samples_for(const Gathered& light) const {
   const double tolerated = setup_.error * unit_;
   if (tolerated <= 0.0) return setup_.samples;
-  double square = 0.0;
-  for (const Path& path : light.paths) square += path.weight * path.weight;
-  return static_cast<int>(std::clamp(setup_.samples * square / (tolerated * tolerated), 1.0 * setup_.samples,
+  double sum = 0.0, square = 0.0;
+  for (const Path& path : light.paths) sum += path.weight, square += path.weight * path.weight;
+  const double variance = std::max(0.0, setup_.samples * square - sum * sum);  // of one ray's share of the light
+  return static_cast<int>(std::clamp(variance / (tolerated * tolerated), 1.0 * setup_.samples,
                                      std::max(1.0 * setup_.samples, 1.0 * most_samples)));
 }
 
@@ -272,9 +274,10 @@ bool IndirectField::at(std::size_t pixel, int count, float* channels) const {
     const std::uint32_t i = near_[k];
     const Node& node = nodes_.all[i];
     const float u = node.x - x, v = node.y - y;
-    const float weight =
-        std::max(0.0f, 1.0f - std::abs(u) / node.reach) * std::max(0.0f, 1.0f - std::abs(v) / node.reach);
-    if (weight <= 0.0f || !one_face(node.face, own)) continue;
+    if (std::abs(u) >= node.reach || std::abs(v) >= node.reach || !one_face(node.face, own)) continue;
+    const float share = 1.0f / node.reach;
+    const float weight = (1.0f - share * std::abs(u)) * (1.0f - share * std::abs(v));
+    if (!(weight > 0.0f)) continue;
     used.push_back({i, weight, u, v});
     lit = lit || node.lit;
     m += weight, mx += weight * u, my += weight * v;

@@ -20,7 +20,7 @@ class IndirectField {
     int bounces = 0;   ///< 0: no indirect light
     int samples = 16;  ///< smallest number of rays of a node
     /// Standard error of a node's light / Pattern::unit above which it gets more rays; 0: no node does.
-    double error = 0.03;
+    double error = 0.02;
   };
   /// A pattern converts light paths to channels. It adds three values for each channel: the channel itself, which is
   /// interpolated; its change when the ends of the paths move by steps[0] (m); and its change for steps[1].

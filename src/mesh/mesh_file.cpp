@@ -103,7 +103,8 @@ MeshFile parse_mesh_file(const ModelFile& model, const LoadOptions& options) {
     return cad::read_contained(bytes, file.format, path, options);
   }
   if (!options.solid.empty())
-    throw input_error("'solid' chooses one of a STEP or IGES file, and this is " + file.format, path, "leave it out");
+    throw input_error("'solid' selects a solid of a STEP or IGES file, but this file is " + file.format, path,
+                      "remove this key");
   if (file.format == "DAE") read_asset(bytes, path, file);
   Import import = import_contained(bytes, file.format);
   if (!import.complaint.empty() && file.format == "DAE") {

@@ -31,7 +31,8 @@ Decades decades_of(const SensorMetrics& m) {
     least = std::min(least, p.sigma);
     most = std::max(most, p.sigma);
   }
-  if (!(most > 0.0)) throw input_error("there is nothing to plot: the sensor has no noise", "--plot", "leave it out");
+  if (!(most > 0.0))
+    throw input_error("there is nothing to plot: the sensor has no noise", "--plot", "remove this option");
   const double first = std::floor(std::log10(least));
   return {first, std::max(first + 1.0, std::ceil(std::log10(most)))};
 }

@@ -76,7 +76,8 @@ void Heap::lift(const std::vector<int>& ids, const Vec3& direction, double dista
     if (state_->core.plan().world.bodies[static_cast<std::size_t>(id)].fixed)
       throw input_error("part " + std::to_string(id) + " is fixed", "lift", "name parts that can move, or remove() it");
   const double length = direction.norm();
-  if (!(length > 0.0) || !std::isfinite(length)) throw input_error("is no direction", "lift", "for instance [0, 0, 1]");
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw input_error("has length 0", "lift", "give a direction, for instance [0, 0, 1]");
   if (!(distance >= 0.0 && distance <= longest_lift))
     throw input_error("the distance is " + std::to_string(distance) + " m", "lift", "give 0 to 10 m");
   const CancelScope scope(hooks.cancel);

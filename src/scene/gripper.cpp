@@ -82,15 +82,15 @@ void check_gripper(const Gripper& gripper, const std::string& key) {
   if (gripper.type == Gripper::Type::parallel) {
     if (gripper.pad_length > gripper.finger_depth)
       throw input_error("is longer than finger_depth, " + metres(gripper.finger_depth), key + ".pad_length",
-                        "the pad lies on the finger");
+                        "give at most this length, because the pad is a part of the finger");
     if (!(gripper.widest() > 0.0))
-      throw input_error("twice of it leaves nothing of the stroke, " + metres(gripper.travel()),
+      throw input_error("twice this value leaves nothing of the stroke, " + metres(gripper.travel()),
                         key + ".finger_clearance", "lengths are in m; the default is 0.0005");
     return;
   }
   if (gripper.lip >= gripper.radius)
-    throw input_error("is no smaller than the radius of the ring, " + metres(gripper.radius), key + ".lip",
-                      "give what the lip can bridge, about a tenth of the radius");
+    throw input_error("is not smaller than the radius of the ring, " + metres(gripper.radius), key + ".lip",
+                      "give the largest gap that the lip can close, which is about a tenth of the radius");
 }
 
 }  // namespace bin_scenes

@@ -1,7 +1,8 @@
 /// The table of request keys: every key once, with its field, unit, meaning, range and the consequence of changing it.
 /// Reading, writing back, `--set`, suggestions for unknown keys, check() and docs/use/request.md all come from visiting
 /// it; the default of a key is the value of its field in a default-constructed struct (scene/request.hpp). Keys of
-/// solvers, grippers and sensors are in solver_keys.hpp, gripper_keys.hpp and sensor/sensor_keys.hpp.
+/// surfaces, solvers, grippers and sensors are in surface_keys.hpp, solver_keys.hpp, gripper_keys.hpp and
+/// sensor/sensor_keys.hpp.
 ///
 /// A visitor has  field(Key, value&)          one value
 ///                section(Key, struct&)       a map of further keys
@@ -12,6 +13,7 @@
 #include "bin_scenes/scene/request.hpp"
 #include "scene/gripper_keys.hpp"
 #include "scene/solver_keys.hpp"
+#include "scene/surface_keys.hpp"
 
 namespace bin_scenes {
 
@@ -27,56 +29,35 @@ inline Names<Pour::Finish> names(Pour::Finish) {
 template <class Visitor>
 void visit(Visitor& v, Motion& motion) {
   v.field({"times", "s",
-           "when it is at each of poses, from its beginning, ascending. Motion is not for preset thesis and device gpu",
+           "Times at which the body reaches each of the `poses`, in ascending order, counted from the start of the "
+           "motion. Motion is available neither with the preset `thesis` nor with the device `gpu`.",
            above(0.0, 1e5)},
           motion.times);
+  v.field({"poses", "m",
+           "Poses of the body at the `times`, relative to its initial pose and in the directions that the axes of the "
+           "bin frame have at the start. The movement between them is smooth, and begins and ends at rest. A bin must "
+           "be upright at the end. Poses of parts are always relative to the bin, even if it moves."},
+          motion.poses);
   v.field(
-      {"poses", "m",
-       "where it is then, from where it stood, in the axes that the bin had; it goes smoothly from one to the next; a "
-       "bin ends upright. Poses of parts stay those in the bin"},
-      motion.poses);
-  v.field({"shake", "m", "amplitude of a sine along the axes", at_least(-100.0, 100.0)}, motion.shake);
-  v.field({"tilt", "rad", "amplitude of a sine of turns about the axes", at_least(-M_PI, M_PI)}, motion.tilt);
-  v.field({"frequency", "Hz", "of shake and tilt, which swell up over their first period and fade over their last",
+      {"shake", "m", "Amplitude of a sinusoidal displacement along the x, y and z axes of the bin frame at the start.",
+       at_least(-100.0, 100.0)},
+      motion.shake);
+  v.field({"tilt", "rad",
+           "Amplitude of a sinusoidal rotation about the origin of the body's frame. The direction of this vector is "
+           "the axis of rotation, and its length is the largest angle.",
+           at_least(-M_PI, M_PI)},
+          motion.tilt);
+  v.field({"frequency", "Hz",
+           "Frequency of `shake` and `tilt`. Their amplitude grows during the first period and decreases during the "
+           "last one.",
            above(0.0, 100.0)},
           motion.frequency);
-  v.field({"belt", "m/s", "velocity of the surface of a part that itself stays: a conveyor", at_least(-100.0, 100.0)},
+  v.field({"belt", "m/s",
+           "Velocity of the surface of a part that does not move itself, such as a conveyor belt, in the bin frame. A "
+           "bin cannot have a belt.",
+           at_least(-100.0, 100.0)},
           motion.belt);
-  v.field({"seconds", "s", "how long shake, tilt and belt go on", above(0.0, 1e5)}, motion.seconds);
-}
-
-template <class Visitor>
-void visit(Visitor& v, Texture& texture) {
-  v.field({"scratches", "", "mean share, rough; albedo x 0.8", at_least(0.0, 1.0)}, texture.scratches);
-  v.field({"oil", "", "mean share, smoother; albedo x 0.85", at_least(0.0, 1.0)}, texture.oil);
-  v.field({"rust", "", "mean share, matte; albedo x 0.4", at_least(0.0, 1.0)}, texture.rust);
-}
-
-template <class Visitor>
-void visit(Visitor& v, Surface& surface) {
-  std::string material;  // name of a material whose values have been read; the values are written instead of the name
-  v.field({"material", "",
-           "name of a file of config/materials whose values are the defaults here: steel_brushed, plastic_black, ...",
-           anything, false},
-          material);
-  v.field({"albedo", "", "share of the light that is sent back, 0 to 1; dark parts are noisier and drop out",
-           at_least(0.0, 1.0)},
-          surface.albedo);
-  v.field(
-      {"gloss", "", "share of that which is mirrored, 0 to 1; shiny parts saturate or drop out", at_least(0.0, 1.0)},
-      surface.gloss);
-  v.field({"roughness", "", "width of the mirrored lobe, 0 to 1; smaller = narrower and brighter highlights",
-           at_least(0.0, 1.0)},
-          surface.roughness);
-  v.field({"refraction", "",
-           "metals: n of the index of refraction n + i k; mirrors as Fresnel says; 0 with extinction 0 = all",
-           at_least(0.0, 100.0)},
-          surface.refraction);
-  v.field({"extinction", "", "metals: k of that index", at_least(0.0, 100.0)}, surface.extinction);
-  v.field({"colour", "", "times albedo, of red, green, blue", at_least(0.0, 1.0)}, surface.colour);
-  v.field({"anisotropy", "", "of brushing: narrower lobe along its lines", at_least(0.0, 1.0)}, surface.anisotropy);
-  v.field({"along", "", "of the lines; [0, 0, 0]: the longest axis"}, surface.along);
-  v.section({"texture", "", "wear", anything, surface.texture.any()}, surface.texture);
+  v.field({"seconds", "s", "Duration of `shake`, `tilt` and `belt`.", above(0.0, 1e5)}, motion.seconds);
 }
 
 /// The kind of bin is not a key of its own: it follows from which of inner_size, mesh, floor and none is there.
@@ -90,24 +71,42 @@ void visit(Visitor& v, Bin& bin) {
   using Kind = Bin::Kind;
   const bool box = bin.kind == Kind::box, mesh = bin.kind == Kind::mesh;
   BinKeys kind(bin);
-  v.field({"inner_size", "m", "box: inner length x, width y and height z", above(0.0, 1000.0), box}, bin.inner_size);
-  v.field({"wall_thickness", "m", "box: thickness of walls and floor; seen by cameras, never by the physics",
+  v.field({"inner_size", "m", "Size of a bin that is a box: inner length (x), inner width (y) and inner height (z).",
+           above(0.0, 1000.0), box},
+          bin.inner_size);
+  v.field({"wall_thickness", "m",
+           "Thickness of the walls and the floor of a bin that is a box. Only cameras see it; the simulation of the "
+           "parts does not depend on it.",
            at_least(0.0, 10.0), box},
           bin.wall_thickness);
   v.field({"mesh", "",
-           "path of a mesh that is the bin, instead of a box, with walls of some thickness; written like parts[].model",
+           "Path of a mesh file that is the bin, instead of a box. The walls of the mesh must have a thickness. The "
+           "path is written as in `parts[].model`.",
            anything, mesh},
           bin.mesh);
-  v.field({"unit", "", "mesh: unit of the file", anything, mesh}, bin.unit);
-  v.field({"pose", "", "mesh: frame of the file in the bin frame", anything, mesh}, bin.pose);
-  v.field({"floor", "", "true: an endless floor at z = 0 instead of a box", anything, kind.floor}, kind.floor);
-  v.field({"none", "", "true: no bin, free flight", anything, kind.none}, kind.none);
-  v.field({"friction", "", "of walls and floor; the coefficient of a contact is sqrt(part * bin)", at_least(0.0, 10.0)},
+  v.field({"unit", "", "Unit of length of the mesh file of the bin.", anything, mesh}, bin.unit);
+  v.field({"pose", "",
+           "Pose of the frame of the bin's mesh file in the bin frame. If it is not given, both frames are the same.",
+           anything, mesh},
+          bin.pose);
+  v.field({"floor", "", "If true, the bin is an endless floor at z = 0 without walls.", anything, kind.floor},
+          kind.floor);
+  v.field({"none", "", "If true, there is no bin, and the parts move freely.", anything, kind.none}, kind.none);
+  v.field({"friction", "",
+           "Coefficient of friction of the walls and the floor. The coefficient of a contact is sqrt(part * bin).",
+           at_least(0.0, 10.0)},
           bin.friction);
-  v.field({"restitution", "", "of walls and floor; a contact uses the larger one of part and bin", at_least(0.0, 1.0)},
+  v.field({"restitution", "",
+           "Coefficient of restitution of the walls and the floor: the speed after an impact divided by the speed "
+           "before it. A contact uses the larger value of part and bin.",
+           at_least(0.0, 1.0)},
           bin.restitution);
-  v.section({"surface", "", "of walls and floor: what light does there"}, bin.surface);
-  v.section({"motion", "", "path of the bin, begun when all parts are in and slow; then the heap settles again",
+  v.section({"surface", "",
+             "Optical properties of the walls and the floor. The simulation of the parts does not depend on them."},
+            bin.surface);
+  v.section({"motion", "",
+             "Motion of the bin. It begins when all parts are in the bin and slow; when it has ended, the heap settles "
+             "again.",
              anything, bin.motion.any()},
             bin.motion);
   v.bin_kind(bin, kind);
@@ -115,60 +114,93 @@ void visit(Visitor& v, Bin& bin) {
 
 template <class Visitor>
 void visit(Visitor& v, Tessellation& fine) {
-  v.field({"chord", "m", "largest distance of triangles from the surface; left out: 2e-4 of the part's diagonal",
+  v.field({"chord", "m",
+           "Largest distance between the triangles and the true surface. If it is not given, it is 0.0002 times the "
+           "diagonal of the part's bounding box.",
            above(0.0, 1.0)},
           fine.chord);
-  v.field({"angle", "rad", "between neighbouring triangles of a curved surface; smaller = finer small fillets",
+  v.field({"angle", "rad",
+           "Largest angle between neighbouring triangles of a curved surface. Smaller angles represent small fillets "
+           "more exactly.",
            at_least(0.01, 1.0)},
           fine.angle);
 }
 
+/// The model of a part line, and how many parts of which mass are made from it.
+template <class Visitor>
+void visit_model(Visitor& v, PartLine& part) {
+  v.field(
+      {"model", "",
+       "Path of a mesh or CAD file (STL, OBJ, PLY, DAE, OFF, STEP or IGES): relative to the request, absolute, or "
+       "`package://name/path`. The model must be a closed solid. Holes with a perimeter of at most 2 % of the diagonal "
+       "of the model are closed, and the report states this. Larger holes are an error unless `thickness` is given.",
+       anything, true, true},
+      part.model);
+  v.field({"unit", "",
+           "Unit of length of the model file. If it is not given, the unit that the file states is used, or metres if "
+           "it states none. If the size of the model is then implausible for the bin, an error names the likely unit."},
+          part.unit);
+  v.field(
+      {"scale", "", "Factor by which the size of the model is multiplied, in addition to its unit.", above(0.0, 1e6)},
+      part.scale);
+  v.field({"count", "", "Number of parts that are made from this model. The computing time grows with it.",
+           at_least(1.0, 1e6)},
+          part.count);
+  v.field({"density", "kg/m3",
+           "Density of a part, from which its mass is computed as density * volume of the mesh. It is 1000 if neither "
+           "`density` nor `mass` is given.",
+           above(0.0, 1e5)},
+          part.density);
+  v.field({"mass", "kg", "Mass of one part. Give either `mass` or `density`.", above(0.0, 1e6)}, part.mass);
+}
+
 template <class Visitor>
 void visit(Visitor& v, PartLine& part) {
-  v.field({"model", "",
-           "mesh or CAD file (STL, OBJ, PLY, DAE, OFF, STEP, IGES): path relative to the request, absolute, or "
-           "package://name/path; it must be a closed solid: holes "
-           "of at most 2 % of its diagonal around are closed, and the report says so; larger holes are an error unless "
-           "thickness is given",
-           anything, true, true},
-          part.model);
-  v.field({"unit", "",
-           "unit of the file; left out: m (or what the file itself states), unless the size is implausible for the "
-           "bin, which is an error that names the likely unit"},
-          part.unit);
-  v.field({"scale", "", "multiplies the model after the unit", above(0.0, 1e6)}, part.scale);
-  v.field({"count", "", "number of copies; cost grows with it", at_least(1.0, 1e6)}, part.count);
-  v.field(
-      {"density", "kg/m3", "mass = density * volume of the mesh; 1000 if mass is not given either", above(0.0, 1e5)},
-      part.density);
-  v.field({"mass", "kg", "of one part, instead of density", above(0.0, 1e6)}, part.mass);
-  v.field({"friction", "", "the coefficient of a contact is sqrt(a * b)", at_least(0.0, 10.0)}, part.friction);
+  visit_model(v, part);
+  v.field({"friction", "",
+           "Coefficient of friction of the parts. The coefficient of a contact between bodies with the values a and b "
+           "is sqrt(a * b).",
+           at_least(0.0, 10.0)},
+          part.friction);
   v.field({"restitution", "",
-           "a contact uses the larger one of the two; parts with high values take longer to come to rest",
+           "Coefficient of restitution of the parts: the speed after an impact divided by the speed before it. A "
+           "contact uses the larger value of its two bodies. With large values, parts take longer to come to rest.",
            at_least(0.0, 1.0)},
           part.restitution);
-  v.field({"thickness", "m", "gives an open surface walls of this thickness instead of refusing it", above(0.0, 1.0)},
+  v.field({"thickness", "m",
+           "Thickness of the walls that an open surface is given to make it a solid. Without this key, a model that is "
+           "an open surface is an error.",
+           above(0.0, 1.0)},
           part.thickness);
-  v.section(
-      {"tessellation", "", "STEP, IGES: how finely surfaces become triangles", anything, part.tessellation.given()},
-      part.tessellation);
-  v.field({"solid", "", "STEP, IGES: name of the solid to take; left out: all of the file, which must touch", anything,
-           !part.solid.empty()},
+  v.section({"tessellation", "",
+             "Settings that determine how finely the surfaces of a STEP or IGES file are divided into triangles.",
+             anything, part.tessellation.given()},
+            part.tessellation);
+  v.field({"solid", "",
+           "Name of the solid that is read from a STEP or IGES file. If it is not given, all solids of the file are "
+           "read as one part, and they must touch each other.",
+           anything, !part.solid.empty()},
           part.solid);
   v.field({"poses", "m",
-           "start poses of the model frame in the bin frame, one a part: [x, y, z, qx, qy, qz, qw]; needed by "
-           "pour.pattern given and by fixed parts",
+           "Start poses of the model frame in the bin frame, one for each part: position (m) and quaternion. They are "
+           "required for fixed parts and, unless `pour.scene` is given, with `pour.pattern: given`.",
            anything, !part.poses.empty()},
           part.poses);
   v.field({"velocities", "m/s, rad/s",
-           "start velocities, one a pose: [vx, vy, vz, wx, wy, wz] of the centre of mass in the bin frame; left out: "
-           "at rest",
+           "Start velocities in the bin frame, one for each of the `poses`: velocity of the centre of mass (m/s) and "
+           "angular velocity (rad/s). If they are not given, the parts start at rest.",
            at_least(-1e4, 1e4), !part.velocities.empty()},
           part.velocities);
-  v.field({"fixed", "", "true: an obstacle (a divider, a fixture) that stays at its given pose"}, part.fixed);
-  v.section({"surface", "", "what light does on these parts; physics does not depend on it"}, part.surface);
+  v.field({"fixed", "",
+           "If true, the parts are obstacles, for example dividers or fixtures, that stay at the given `poses` or "
+           "follow their `motion`."},
+          part.fixed);
   v.section(
-      {"motion", "", "path of a fixed part that nothing stops: a pusher, a conveyor", anything, part.motion.any()},
+      {"surface", "", "Optical properties of the parts. The simulation of their movement does not depend on them."},
+      part.surface);
+  v.section(
+      {"motion", "", "Motion of a fixed part that nothing can stop or deflect, for example a pusher or a conveyor.",
+       anything, part.motion.any()},
       part.motion);
 }
 
@@ -177,132 +209,176 @@ void visit(Visitor& v, Pour& pour) {
   // Poses read from an earlier scene are in the part lines by then: the request that is written back needs no other
   // file.
   v.field({"pattern", "",
-           "rain: parts enter just above the heap as it grows; grid: all at once on a 3-D grid above the bin; given: "
-           "poses come with the parts or from scene"},
+           "How the parts enter the bin. `rain`: one after the other, just above the heap as it grows. `grid`: all at "
+           "the same time, on a three-dimensional grid above the bin. `given`: at start poses that the entries of "
+           "`parts` or the key `scene` give."},
           pour.pattern);
-  v.field(
-      {"finish", "",
-       "how much is done before a scene counts as finished, each step on top of the one before: settled: parts "
-       "rest on soft contacts; pressed: stiff contacts take their overlap out; probed: verified to stand without "
-       "remembered forces and with a tenth less friction, which takes up to twice the time of pressed. To bullet all "
-       "three are settled"},
-      pour.finish);
-  v.field({"drop_height", "m", "rain: free fall of a part above the heap; higher = harder impacts and longer scenes",
+  v.field({"finish", "",
+           "Last stage of settling before a scene counts as finished. `settled`: the parts are at rest on soft "
+           "contacts. `pressed`: in addition, stiff contacts remove the overlap of the parts. `probed`: in addition, "
+           "the heap must stay at rest without remembered contact forces and with 90 % of the friction, which takes up "
+           "to twice the time of `pressed`. With the solver `bullet`, all three mean `settled`."},
+          pour.finish);
+  v.field({"drop_height", "m",
+           "For the pattern `rain`: height above the heap from which each part falls. Larger heights cause harder "
+           "impacts and longer simulations.",
            at_least(0.0, 100.0)},
           pour.drop_height);
-  v.field({"grid_spacing", "", "grid: cell edge / bounding diameter of the largest part", at_least(1.0, 100.0)},
+  v.field({"grid_spacing", "",
+           "For the pattern `grid`: edge length of a cell of the grid divided by the diameter of the largest part's "
+           "bounding sphere.",
+           at_least(1.0, 100.0)},
           pour.grid_spacing);
-  v.field(
-      {"scene", "",
-       "given: path of an earlier scene.json to continue from; its parts are matched with the part lines by position "
-       "in the list; escaped parts are left out",
-       anything, false},
-      pour.scene);
-  v.field({"limit", "s", "simulated time after which a scene that still moves ends, not at rest", above(0.0, 1e5)},
+  v.field({"scene", "",
+           "For the pattern `given`: path of the `scene.json` of an earlier scene that is continued. The request must "
+           "list the same models in the same order as the request of that scene. Parts that had escaped are left out.",
+           anything, false},
+          pour.scene);
+  v.field({"limit", "s",
+           "Simulated time after which the simulation ends even if parts still move. The scene is then not at rest.",
+           above(0.0, 1e5)},
           pour.limit);
-  v.field({"rest_window", "s", "simulated time over which no part may move; longer = more certain rest, longer scenes",
+  v.field({"rest_window", "s",
+           "Simulated time during which a part must not move to count as at rest. A longer time makes rest more "
+           "certain and simulations longer.",
            above(0.0)},
           pour.rest_window);
-  v.field(
-      {"rest_move", "", "largest displacement over the window / part diagonal that counts as rest", above(0.0, 1.0)},
-      pour.rest_move);
-  v.field({"rest_turn", "rad", "largest turn over the window that counts as rest", above(0.0, 3.2)}, pour.rest_turn);
+  v.field({"rest_move", "",
+           "Largest displacement of a part during `rest_window` that still counts as rest, divided by the diagonal of "
+           "the part's bounding box.",
+           above(0.0, 1.0)},
+          pour.rest_move);
+  v.field({"rest_turn", "rad", "Largest rotation of a part during `rest_window` that still counts as rest.",
+           above(0.0, 3.2)},
+          pour.rest_turn);
 }
 
 template <class Visitor>
 void visit(Visitor& v, Acceptance& accept) {
-  v.field(
-      {"penetration", "", "largest penetration of any pair / smaller part's diagonal; deeper: the scene is set apart",
-       at_least(0.0, 1.0)},
-      accept.penetration);
+  v.field({"penetration", "",
+           "Largest allowed penetration of two parts, or of a part and the bin, divided by the diagonal of the smaller "
+           "part's bounding box. A scene that exceeds this limit is rejected (set apart).",
+           at_least(0.0, 1.0)},
+          accept.penetration);
   v.field({"gap", "",
-           "largest distance that a part at rest could fall before it touches something / its diagonal; farther: the "
-           "scene is set apart",
+           "Largest distance by which a part at rest may be able to fall before it touches something, divided by the "
+           "diagonal of its bounding box. A scene that exceeds this limit is rejected (set apart).",
            at_least(0.0, 1.0)},
           accept.gap);
-  v.field(
-      {"energy", "",
-       "largest energy that a part gained from nowhere between two observations (1/60 s) / (its mass * gravity * its "
-       "diagonal); more: contacts threw it about, and the scene is set apart",
-       at_least(0.0)},
-      accept.energy);
+  v.field({"energy", "",
+           "Largest allowed energy that a part gains without a cause between two observations (1/60 s), divided by "
+           "mass * gravity * diagonal of the part's bounding box. A larger gain means that contacts threw the part, "
+           "and the scene is rejected (set apart).",
+           at_least(0.0)},
+          accept.energy);
   v.field({"speed", "",
-           "largest (speed of a part - gravity * time between two observations) / fastest of the parts near it before; "
-           "more: "
-           "contacts threw it out, and the scene is set apart",
+           "Largest allowed ratio of the speed of a part to the speed that the fastest of its neighbours had 1/60 s "
+           "before; the speed that gravity adds in this time is subtracted. A larger ratio means that contacts threw "
+           "the part, and the scene is rejected (set apart).",
            at_least(1.0)},
           accept.speed);
   v.field({"worst_penetration", "",
-           "largest depth of a contact at any time of the run, by the solver's own contacts / smaller part's diagonal; "
-           "deeper: parts may have passed into each other, and the scene is set apart",
+           "Largest allowed depth of a contact at any time of the simulation, as the solver computes it, divided by "
+           "the diagonal of the smaller part's bounding box. If a contact is deeper, parts may have passed into each "
+           "other, and the scene is rejected (set apart).",
            at_least(0.0, 1.0)},
           accept.worst_penetration);
+  v.field({"worst_energy_gain", "",
+           "Largest allowed rise of the energy of all parts together above an earlier value, divided by the sum of "
+           "mass * gravity * diagonal over the parts that moved. A larger rise means that contacts created energy, and "
+           "the scene is rejected (set apart).",
+           at_least(0.0)},
+          accept.worst_energy_gain);
+  v.field({"jam", "",
+           "Largest allowed force with which contacts on opposite sides squeeze a part, divided by the weight of the "
+           "part and of everything that rests on it. A larger force means that the collision shape fills a gap of the "
+           "true part, and the scene is rejected (set apart).",
+           at_least(1.0)},
+          accept.jam);
+  v.field({"escaped", "",
+           "If true, scenes are accepted even if parts have escaped, which means that they are outside the bin or "
+           "below the floor."},
+          accept.escaped);
   v.field(
-      {"worst_energy_gain", "",
-       "largest rise of the energy of all parts together above an earlier value / (mass * gravity * diagonal, summed "
-       "over the parts that moved); more: contacts made energy, and the scene is set apart",
-       at_least(0.0)},
-      accept.worst_energy_gain);
-  v.field(
-      {"jam", "",
-       "largest squeeze of a part between contacts on opposite sides / weight of it and of what rests on it; more: its "
-       "collision shape fills a gap that the part has, and the scene is set apart",
-       at_least(1.0)},
-      accept.jam);
-  v.field({"escaped", "", "true: scenes with escaped parts are accepted too"}, accept.escaped);
-  v.field({"unstable", "", "true: scenes with parts that moved in each check of how they stand are accepted too"},
-          accept.unstable);
+      {"unstable", "", "If true, scenes are accepted even if parts moved in every check of whether they stay at rest."},
+      accept.unstable);
+}
+
+/// What sees and grasps the parts of a scene.
+template <class Visitor>
+void visit_sensors_and_grippers(Visitor& v, Request& request) {
+  v.list({"sensors", "", "Sensors that see each scene. Without sensors, no images are made."}, request.sensors);
+  v.field({"rig", "",
+           "Name of a preset that contains all sensors of a published data set: `ipd`, `xyzibd` or `itoddmv`. It "
+           "replaces `sensors`. The files in `config/sensors/rigs` state their sources. Single values are changed with "
+           "the option `--set`, or with `draw` in a plan.",
+           anything, false},
+          request.rig);
+  v.list({"grippers", "",
+          "Grippers for which the output format `grasps` computes grasps. Each entry is a map of keys, or the name of "
+          "a preset.",
+          anything, !request.grippers.empty()},
+         request.grippers);
+  v.field({"prove", "",
+           "Number of free grasps of a scene whose lift is simulated. They are chosen from the whole range of scores. "
+           "The default is 0.",
+           at_least(0.0, 1e5), request.prove > 0},
+          request.prove);
+  v.field({"prove_all", "", "If true, `prove` also chooses grasps of blocked parts and grasps that would slip.",
+           anything, request.prove > 0},
+          request.prove_all);
+  v.field({"lift_cone", "rad",
+           "Largest allowed angle between a lift and the vertical. A grasped part that cannot be lifted straight up is "
+           "lifted along the free direction within this angle that is nearest to the vertical. The default is 0: parts "
+           "are lifted straight up only.",
+           at_least(0.0, 1.2), !request.grippers.empty()},
+          request.lift_cone);
+  v.field({"slight_overlap", "",
+           "Share of a part's footprint that other parts may cover while the part still counts as free to be lifted. "
+           "With 0, only parts that nothing covers count as free. The default is 0.03.",
+           at_least(0.0, 1.0), !request.grippers.empty()},
+          request.slight_overlap);
 }
 
 template <class Visitor>
 void visit(Visitor& v, Request& request) {
-  v.field({"seed", "", "same request, seed and device class = same scene, bit for bit; 0 is a seed like any other",
+  v.field({"seed", "",
+           "Seed of all random numbers. The same request and seed give the same scene, bit for bit, on all machines of "
+           "one device class. 0 is a seed like any other.",
            at_least(0.0)},
           request.seed);
-  v.field({"scenes", "", "number of scenes", at_least(1.0, 1e9)}, request.scenes);
-  v.field({"first", "", "index of the first scene; scene i depends on (seed, i) alone, so that a job can be split",
+  v.field({"scenes", "", "Number of scenes that are generated.", at_least(1.0, 1e9)}, request.scenes);
+  v.field({"first", "",
+           "Index of the first scene. Scene i depends only on the seed and on i, so that a job can be divided into "
+           "several.",
            at_least(0.0, 1e9)},
           request.first);
-  v.section({"bin", "", "its origin is the centre of the floor's top, z up"}, request.bin);
-  v.field({"gravity", "m/s2", "in the bin frame", at_least(-1e4, 1e4)}, request.gravity);
-  v.list({"parts", "", "parts to pour; several lines make a mixed bin", anything, true, true}, request.parts);
-  v.section({"pour", "", "how parts enter the bin, and when they are at rest"}, request.pour);
-  v.section({"solver", "", "solver and its settings"}, request.solver);
-  v.list({"sensors", "", "range sensors; none = no images"}, request.sensors);
-  v.field({"rig", "",
-           "instead of sensors: those of a published data set, ipd, xyzibd or itoddmv (config/sensors/rigs names "
-           "sources); single values are changed by --set or a plan's draw",
-           anything, false},
-          request.rig);
-  v.list({"grippers", "",
-          "the grippers for which the format `grasps` lists grasps; an item is a map or the name of a preset", anything,
-          !request.grippers.empty()},
-         request.grippers);
-  v.field({"prove", "", "free grasps of a scene that are proved by lifting, spread over their scores",
-           at_least(0.0, 1e5), request.prove > 0},
-          request.prove);
-  v.field({"prove_all", "", "true: prove also chooses grasps of blocked parts, and grasps that would slip", anything,
-           request.prove > 0},
-          request.prove_all);
-  v.field(
-      {"lift_cone", "rad",
-       "grasped parts that cannot go straight up may be lifted along any direction within this angle of it; the one "
-       "nearest to the vertical is chosen",
-       at_least(0.0, 1.2), !request.grippers.empty()},
-      request.lift_cone);
-  v.field({"slight_overlap", "",
-           "share of a part's footprint: a part that others cover by no more counts as free to be lifted; 0: only "
-           "uncovered parts do",
-           at_least(0.0, 1.0), !request.grippers.empty()},
-          request.slight_overlap);
-  v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
-  v.field({"seconds", "s", "simulates exactly this long instead of until rest", above(0.0, 1e5)}, request.seconds);
+  v.section({"bin", "",
+             "The container of the parts. The origin of the bin frame is the centre of the floor's top surface, and z "
+             "points up."},
+            request.bin);
+  v.field({"gravity", "m/s2", "Acceleration of gravity in the bin frame.", at_least(-1e4, 1e4)}, request.gravity);
+  v.list({"parts", "", "Models of which parts are made and poured. Several entries give a mixed bin.", anything, true,
+          true},
+         request.parts);
+  v.section({"pour", "", "How the parts enter the bin, and when they count as at rest."}, request.pour);
+  v.section({"solver", "", "The solver that simulates the movement of the parts, and its settings."}, request.solver);
+  visit_sensors_and_grippers(v, request);
+  v.section({"accept", "",
+             "Limits that a scene must meet to be accepted. Other scenes are rejected (set apart), and their report "
+             "states the reasons."},
+            request.accept);
+  v.field({"seconds", "s",
+           "Simulated time. If it is given, exactly this time is simulated, whether or not the parts are at rest.",
+           above(0.0, 1e5)},
+          request.seconds);
   v.field({"drift_check", "",
-           "true: the same solver continues from rest for 0.5 s, and the report states how far parts move; this does "
-           "not predict what other engines do"},
+           "If true, the same solver continues from the scene at rest for 0.5 s, and the report states how far parts "
+           "move. This does not predict how far they move in other physics engines."},
           request.drift_check);
   v.field({"memory_budget", "byte",
-           "a request whose estimate exceeds it is refused, with the figure; distance fields share half of it",
+           "Largest amount of memory that a job may use. A request whose estimate is larger is refused with an error "
+           "that states the estimate. Distance fields may use half of the budget.",
            above(0.0, 1e15)},
           request.memory_budget);
 }

@@ -27,15 +27,16 @@ void check_number(const std::string& path, const Key& key, double value) {
   if (std::isfinite(value) && high_enough && value <= range.most) return;
   const std::string wanted = text_of(range);
   throw input_error("must be " + (wanted.empty() ? "a finite number" : wanted) + ", is " + shown(value), path,
-                    *key.unit ? std::string(key.unit) + ": " + key.text : key.text);
+                    described(key));
 }
 
 void check_pose(const std::string& path, const Pose& pose) {
-  if (!pose.finite()) throw input_error("is not finite", path, "give seven finite numbers");
+  if (!pose.finite()) throw input_error("contains a number that is not finite", path, "give seven finite numbers");
   if (std::abs(pose.orientation.squaredNorm() - 1.0) > 1e-6)
-    throw input_error("has no unit quaternion", path, "normalise it");
+    throw input_error("its quaternion does not have the length 1", path, "normalise the quaternion");
   if (pose.position.norm() > 1e4)
-    throw input_error("lies " + shown(pose.position.norm()) + " m away", path, "positions are in m");
+    throw input_error("is " + shown(pose.position.norm()) + " m away from the origin", path,
+                      "check the position, which is in m");
 }
 
 }  // namespace bin_scenes

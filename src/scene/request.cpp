@@ -79,11 +79,12 @@ void check_motion(const std::string& key, const Motion& motion) {
   if (motion.times.size() != motion.poses.size()) {
     refuse(key + ".times",
            "has " + count_of(motion.times.size(), "times") + " for " + count_of(motion.poses.size(), "poses"),
-           "give one time a pose");
+           "give one time for each pose");
   }
   for (std::size_t i = 1; i < motion.times.size(); ++i) {
     if (!(motion.times[i] > motion.times[i - 1]))
-      refuse(key + ".times[" + std::to_string(i) + "]", "is no later than the one before", "ascending");
+      refuse(key + ".times[" + std::to_string(i) + "]", "is not later than the time before it",
+             "give the times in ascending order");
   }
 }
 
@@ -94,78 +95,86 @@ bool ends_upright(const Motion& motion, const Vec3& gravity) {
 
 void check_bin(const Bin& bin, const Vec3& gravity) {
   check_motion("bin.motion", bin.motion);
-  if (!bin.motion.belt.isZero()) refuse("bin.motion.belt", "applies to parts only", "make the conveyor a fixed part");
+  if (!bin.motion.belt.isZero())
+    refuse("bin.motion.belt", "applies to parts only", "describe the conveyor as a fixed part");
   if (!ends_upright(bin.motion, gravity))
-    refuse("bin.motion.poses", "does not end upright", "turn the bin back, or turn gravity instead");
+    refuse("bin.motion.poses", "the bin is not upright at the end of its motion",
+           "turn the bin back, or change gravity instead");
   if (bin.kind == Bin::Kind::mesh && bin.mesh.empty()) refuse("bin.mesh", "is empty", "name a mesh file");
 }
 
 void check_start(const std::string& key, const PartLine& line, Pour::Pattern pattern) {
   if (!line.poses.empty() && line.poses.size() != line.count) {
     refuse(key + ".poses", "has " + count_of(line.poses.size(), "poses") + " for " + count_of(line.count, "parts"),
-           "give one pose a part");
+           "give one pose for each part");
   }
   if (!line.velocities.empty() && line.velocities.size() != line.poses.size()) {
     refuse(key + ".velocities",
            "has " + count_of(line.velocities.size(), "velocities") + " for " + count_of(line.poses.size(), "poses"),
-           "give one velocity a pose");
+           "give one velocity for each pose");
   }
   if (line.poses.empty() && line.fixed) {
-    refuse(key + ".poses", "is missing for a fixed part", "say where it stands: [[x, y, z, qx, qy, qz, qw]]");
+    refuse(key + ".poses", "is missing for a fixed part", "give its pose: [[x, y, z, qx, qy, qz, qw]]");
   }
   if (line.poses.empty() && pattern == Pour::Pattern::given) {
-    refuse(key + ".poses", "is missing for pour.pattern given", "give one pose a part, or pour.scene");
+    refuse(key + ".poses", "is missing for pour.pattern given", "give one pose for each part, or give pour.scene");
   }
   if (!line.poses.empty() && !line.fixed && pattern != Pour::Pattern::given) {
-    refuse(key + ".poses", "would not be used: the parts are poured",
+    refuse(key + ".poses", "has no effect, because the parts are poured",
            "set pour.pattern: given, or fixed: true for an obstacle");
   }
 }
 
 void check_part(const std::string& key, const PartLine& line, Pour::Pattern pattern) {
   if (line.model.empty()) refuse(key + ".model", "is missing", "name a mesh file");
-  if (line.density && line.mass) refuse(key + ".mass", "is given beside density", "keep one of them");
+  if (line.density && line.mass) refuse(key + ".mass", "is given in addition to density", "remove one of the two keys");
   check_start(key, line, pattern);
   check_motion(key + ".motion", line.motion);
-  if (line.motion.any() && !line.fixed) refuse(key + ".motion", "is of a part that is not fixed", "set fixed: true");
+  if (line.motion.any() && !line.fixed)
+    refuse(key + ".motion", "belongs to parts that are not fixed", "set fixed: true");
 }
 
 void check_solver(const SolverSettings& solver) {
   const std::vector<double>& radii = solver.thesis.radii;
   for (std::size_t i = 1; i < radii.size(); ++i) {
     if (radii[i] >= radii[i - 1])
-      refuse("solver.thesis.radii[" + std::to_string(i) + "]", "is no smaller than the one before", "largest first");
+      refuse("solver.thesis.radii[" + std::to_string(i) + "]", "is not smaller than the radius before it",
+             "give the radii in descending order, the largest first");
   }
   const int fine = solver.sphere.fine_samples;
   if (fine > 0 && fine < 8)
-    refuse("solver.sphere.fine_samples", "must be 0 or at least 8, is " + std::to_string(fine), "0 = the coarse ones");
+    refuse("solver.sphere.fine_samples", "must be 0 or at least 8, is " + std::to_string(fine),
+           "with 0, the coarse samples are used");
 }
 
 void check_counts(const Request& request) {
   const std::size_t count = request.part_count();
   if (count > max_parts) {
-    refuse("parts",
-           "asks for " + count_of(count, "parts a scene, at most ") + std::to_string(max_parts) + " are possible",
-           "lower the counts");
+    refuse(
+        "parts",
+        "asks for " + count_of(count, "parts in a scene, but at most ") + std::to_string(max_parts) + " are possible",
+        "lower the counts");
   }
   if (!request.sensors.empty() && count > max_labels) {
     refuse("parts",
-           "asks for " + count_of(count, "parts, but the 16-bit labels of a sensor distinguish ") +
-               std::to_string(max_labels) + " apart",
+           "asks for " + count_of(count, "parts, but the 16-bit labels of a sensor can distinguish at most ") +
+               std::to_string(max_labels),
            "lower the counts, or remove the sensors");
   }
 }
 
 void check_grippers(const Request& request) {
   if (request.prove > 0 && request.grippers.empty())
-    refuse("prove", "asks for lifts, but the request has no grippers", "add for instance `grippers: [robotiq_2f_85]`");
+    refuse("prove", "requires simulated lifts, but the request has no grippers",
+           "add for instance `grippers: [robotiq_2f_85]`");
   std::set<std::string> names;
   for (std::size_t i = 0; i < request.grippers.size(); ++i) {
     const Gripper& gripper = request.grippers[i];
     const std::string key = "grippers[" + std::to_string(i) + "]";
-    if (gripper.name.empty()) refuse(key + ".name", "is missing", "name it, or take a preset");
+    if (gripper.name.empty()) refuse(key + ".name", "is missing", "give the gripper a name or a preset");
     if (!names.insert(gripper.name).second)
-      refuse(key + ".name", "'" + gripper.name + "' is taken", "give each gripper a name of its own");
+      refuse(key + ".name", "'" + gripper.name + "' is also the name of another gripper",
+             "give each gripper a different name");
     check_gripper(gripper, key);
     // Closed on nothing, it must still go in.
     const double least = gripper.type == Gripper::Type::suction
@@ -173,7 +182,7 @@ void check_grippers(const Request& request) {
                              : std::max(2.0 * gripper.finger_thickness, gripper.finger_width);
     const Vec3& room = request.bin.inner_size;
     if (request.bin.kind == Bin::Kind::box && least > std::max(room.x(), room.y()))
-      refuse(key, "'" + gripper.name + "' is wider than the bin", "lengths are in m");
+      refuse(key, "'" + gripper.name + "' is wider than the bin", "check its lengths, which are in m");
   }
 }
 

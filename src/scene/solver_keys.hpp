@@ -23,130 +23,170 @@ inline Names<SphereSettings::Device> names(SphereSettings::Device) {
 
 template <class Visitor>
 void visit(Visitor& v, BulletSettings& s) {
-  v.field({"time_step", "s", "larger = faster, but thin parts interlock", above(0.0, 0.1)}, s.time_step);
   v.field(
-      {"cut_steps", "",
-       "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
-       "for measuring long steps"},
-      s.cut_steps);
+      {"time_step", "s", "Length of a time step. Longer steps are faster, but thin parts may penetrate and interlock.",
+       above(0.0, 0.1)},
+      s.time_step);
+  v.field({"cut_steps", "",
+           "If true, time steps that are too long for small or fast parts are shortened. If false, such parts may pass "
+           "through others; use this only to measure the effect of long steps."},
+          s.cut_steps);
   v.field({"iterations", "",
-           "sequential-impulse sweeps a step, two a sub-step, and as many relaxing sweeps; more = stiffer piles, "
-           "linear cost",
+           "Number of sequential-impulse sweeps in a time step, two for each sub-step; as many relaxation sweeps "
+           "follow. More sweeps make stacks stiffer, and the computing time grows linearly.",
            at_least(1.0, 10000.0)},
           s.iterations);
-  v.field({"margin", "", "collision margin / part diagonal, inside the hulls; smaller = slower, more exact",
+  v.field({"margin", "",
+           "Collision margin, which is inside the hulls, divided by the diagonal of the part's bounding box. Smaller "
+           "margins are slower and more exact.",
            above(0.0, 0.2)},
           s.margin);
-  v.field({"sleeping", "", "true: islands at rest cost nothing; false: every part is simulated to the end"},
+  v.field({"sleeping", "",
+           "If true, islands of parts at rest are not simulated and take no time. If false, every part is simulated "
+           "until the end."},
           s.sleeping);
-  v.field({"hull_error", "",
-           "largest surface error of the convex decomposition / part diagonal; smaller = more hulls, cost grows with "
-           "their square",
-           above(0.0, 1.0)},
-          s.hull_error);
   v.field(
-      {"hull_volume_error", "",
-       "largest excess volume of all hulls together / volume of the part; smaller = more hulls; the report has a flag "
-       "if max_hulls does not suffice",
-       above(0.0, 10.0)},
-      s.hull_volume_error);
-  v.field(
-      {"max_hulls", "", "largest number of hulls per part; takes precedence over both errors", at_least(1.0, 4096.0)},
-      s.max_hulls);
+      {"hull_error", "",
+       "Largest allowed surface error of the convex decomposition of a part, divided by the diagonal of its bounding "
+       "box. A smaller error needs more hulls, and the computing time grows with the square of their number.",
+       above(0.0, 1.0)},
+      s.hull_error);
+  v.field({"hull_volume_error", "",
+           "Largest allowed excess volume of all hulls of a part together, divided by the volume of the part. A "
+           "smaller error needs more hulls. If `max_hulls` hulls do not suffice, the report has a flag.",
+           above(0.0, 10.0)},
+          s.hull_volume_error);
+  v.field({"max_hulls", "",
+           "Largest number of hulls of a part. This limit has precedence over `hull_error` and `hull_volume_error`.",
+           at_least(1.0, 4096.0)},
+          s.max_hulls);
 }
 
 template <class Visitor>
 void visit(Visitor& v, ThesisSettings& s) {
-  v.field({"time_step", "s", "larger = faster, but thin parts tunnel", above(0.0, 0.1)}, s.time_step);
-  v.field({"sub_steps", "", "whole steps of time_step / sub_steps each; linear cost", at_least(1.0, 1000.0)},
+  v.field(
+      {"time_step", "s", "Length of a time step. Longer steps are faster, but thin parts may pass through each other.",
+       above(0.0, 0.1)},
+      s.time_step);
+  v.field({"sub_steps", "",
+           "Number of sub-steps in a time step. Each is a whole step of the length `time_step` / `sub_steps`, so that "
+           "the computing time grows linearly.",
+           at_least(1.0, 1000.0)},
           s.sub_steps);
-  v.field({"iterations", "", "impulse and velocity passes a step (5 or 10 in the thesis); higher stacks need more",
+  v.field({"iterations", "",
+           "Number of impulse and velocity passes in a step. The thesis uses 5 or 10. Higher stacks need more.",
            at_least(1.0, 10000.0)},
           s.iterations);
-  v.field({"bias", "", "share of the penetration turned into velocity each step; more = stiffer, with jitter",
+  v.field({"bias", "",
+           "Share of the penetration that is converted into a separating velocity in each step. Larger values make "
+           "contacts stiffer, but cause jitter.",
            at_least(0.0, 1.0)},
           s.bias);
-  v.field({"slop", "", "penetration that is tolerated / sphere radius; 0 = contacts flicker", at_least(0.0, 1.0)},
+  v.field({"slop", "",
+           "Penetration that is tolerated, divided by the radius of a sphere. With 0, contacts appear and disappear "
+           "all the time.",
+           at_least(0.0, 1.0)},
           s.slop);
+  v.field({"rest_velocity", "m/s",
+           "Approach speed below which the restitution of a contact is 0. The value 0 means 2 * gravity * length of a "
+           "step.",
+           at_least(0.0, 100.0)},
+          s.rest_velocity);
   v.field(
-      {"rest_velocity", "m/s", "approach speed below which restitution is 0; 0 = 2 g time_step", at_least(0.0, 100.0)},
-      s.rest_velocity);
-  v.field({"voxels", "", "voxels along the part's longest side; spheres grow with its square", at_least(1.0, 512.0)},
-          s.voxels);
-  v.field({"tightness", "", "voxel pitch / sphere diameter; below 1 = overlapping spheres, smoother surface",
+      {"voxels", "", "Number of voxels along the longest side of a part. The number of spheres grows with its square.",
+       at_least(1.0, 512.0)},
+      s.voxels);
+  v.field({"tightness", "",
+           "Distance of neighbouring voxels divided by the diameter of a sphere. With values below 1, spheres overlap "
+           "and the surface is smoother.",
            above(0.0, 1.0)},
           s.tightness);
-  v.field(
-      {"radii", "",
-       "radii of spheres / the part's longest side, largest first, instead of voxels: large spheres fill the inside, "
-       "the smallest the surface",
-       at_least(0.5 / 512.0, 0.5), !s.radii.empty()},
-      s.radii);
-  v.field({"modified_normals", "", "face spheres carry the true surface's normal: stable with fewer iterations"},
+  v.field({"radii", "",
+           "Radii of spheres divided by the longest side of the part, the largest first. They replace `voxels`: large "
+           "spheres fill the inside of the part, and the smallest ones form its surface.",
+           at_least(0.5 / 512.0, 0.5), !s.radii.empty()},
+          s.radii);
+  v.field({"modified_normals", "",
+           "If true, spheres on faces of a part have the normal of the true surface, so that stacks are stable with "
+           "fewer iterations."},
           s.modified_normals);
-  v.field({"grid_size", "", "cells per axis of the collision grid; memory grows with its cube", at_least(1.0, 1024.0)},
+  v.field({"grid_size", "", "Number of cells of the collision grid along each axis. The memory grows with its cube.",
+           at_least(1.0, 1024.0)},
           s.grid_size);
-  v.field({"cell_size", "", "cell edge / largest sphere diameter, at least 1; larger = more candidates per cell",
+  v.field({"cell_size", "",
+           "Edge length of a cell of the collision grid divided by the diameter of the largest sphere. Larger cells "
+           "contain more candidates.",
            at_least(1.0, 1000.0)},
           s.cell_size);
-  v.field({"contacts_per_sphere", "", "initial capacity; enlarged if necessary, with a flag in the report",
+  v.field({"contacts_per_sphere", "",
+           "Initial number of contacts for which memory is reserved, for each sphere. If it does not suffice, more "
+           "memory is reserved, and the report has a flag.",
            at_least(1.0, 1024.0)},
           s.contacts_per_sphere);
 }
 
 template <class Visitor>
 void visit(Visitor& v, SphereSettings& s) {
-  v.field(
-      {"time_step", "s", "one collision detection each; larger = faster, but thin parts interlock", above(0.0, 0.1)},
-      s.time_step);
-  v.field(
-      {"cut_steps", "",
-       "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
-       "for measuring long steps"},
-      s.cut_steps);
+  v.field({"time_step", "s",
+           "Length of a time step. Contacts are found once in each step. Longer steps are faster, but thin parts may "
+           "penetrate and interlock.",
+           above(0.0, 0.1)},
+          s.time_step);
+  v.field({"cut_steps", "",
+           "If true, time steps that are too long for small or fast parts are shortened. If false, such parts may pass "
+           "through others; use this only to measure the effect of long steps."},
+          s.cut_steps);
   v.field({"step_fall", "",
-           "with cut_steps: distance that the smallest part falls from rest in one step at most / its diagonal; more = "
-           "longer steps for small parts, which sink in further",
+           "Only with `cut_steps`: largest distance that the smallest part falls from rest within one step, divided by "
+           "the diagonal of its bounding box. Larger values allow longer steps for small parts, which then penetrate "
+           "more deeply.",
            above(0.0, 1.0)},
           s.step_fall);
-  v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost",
+  v.field({"sub_steps", "",
+           "Number of sub-steps in a time step. Contact forces are solved in each of them. More sub-steps make "
+           "contacts stiffer and reduce drift, and the computing time grows linearly.",
            at_least(1.0, 1000.0)},
           s.sub_steps);
   v.field({"recycle", "",
-           "contacts of a pair are reused until it moved so far / diagonal of the smallest part, three times as far "
-           "while pouring; more = faster, contacts are less exact",
+           "Relative displacement of two parts up to which their contacts are reused, divided by the diagonal of the "
+           "smallest part's bounding box. During the pour, three times this value is used. Larger values are faster, "
+           "but contacts are less exact.",
            above(0.0, 0.1)},
           s.recycle);
-  v.field({"coarse_samples", "", "surface samples per part while pouring; thin parts get more", at_least(8.0, 1e6)},
+  v.field({"coarse_samples", "", "Number of surface samples of a part during the pour. Thin parts have more.",
+           at_least(8.0, 1e6)},
           s.coarse_samples);
-  v.field(
-      {"fine_samples", "",
-       "surface samples per part while settling; thin parts get more; more = less penetration, linear cost; 0 = the "
-       "coarse ones",
-       at_least(0.0, 1e6)},
-      s.fine_samples);
-  v.field(
-      {"field_cell", "", "cell of the distance field / part diagonal; smaller = more exact, memory grows with its cube",
-       above(0.0, 0.25)},
-      s.field_cell);
+  v.field({"fine_samples", "",
+           "Number of surface samples of a part while the heap settles. Thin parts have more. More samples reduce "
+           "penetration, and the computing time grows linearly. With 0, the coarse samples are used.",
+           at_least(0.0, 1e6)},
+          s.fine_samples);
+  v.field({"field_cell", "",
+           "Edge length of a cell of the distance field divided by the diagonal of the part's bounding box. Smaller "
+           "cells are more exact; half the edge length needs eight times the memory.",
+           above(0.0, 0.25)},
+          s.field_cell);
   v.field({"device", "",
-           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: what needs less time for a standard "
-           "heap, "
-           "measured once. Scenes repeat bit for bit on the same class of device"},
+           "Where the solver runs. `cpu`: C++ code. `gpu`: OpenGL compute shaders, for many scenes at once. `auto`: "
+           "the device that needed less time for a standard heap, which is measured once. Scenes are repeatable, bit "
+           "for bit, within one class of devices."},
           s.device);
 }
 
 template <class Visitor>
 void visit(Visitor& v, SolverSettings& solver) {
-  v.field({"type", "", "auto chooses by device, part and count; the report says why"}, solver.type);
+  v.field(
+      {"type", "", "The solver. `auto` chooses by device, part and number of parts, and the report states the reason."},
+      solver.type);
   v.field({"preset", "",
-           "standard: the default sphere solver; quick: the same with other defaults for pour.finish, "
-           "pour.drop_height and solver.sphere, several times as fast, parts overlap by up to 1 %; thesis: the "
-           "thesis's method for its tables"},
+           "`standard`: the default solver `sphere`. `quick`: the same solver with other defaults of `pour.finish`, "
+           "`pour.drop_height`, `solver.sphere` and two limits of `accept`; it is several times as fast, but parts "
+           "overlap by up to 1 % of their size. `thesis`: the method of the thesis from which this project grew, to "
+           "compare results with its tables."},
           solver.preset);
-  v.section({"bullet", "", "settings of Bullet"}, solver.bullet);
-  v.section({"thesis", "", "settings of the sphere solver's preset thesis"}, solver.thesis);
-  v.section({"sphere", "", "settings of the default sphere solver: presets standard and quick"}, solver.sphere);
+  v.section({"bullet", "", "Settings of the solver `bullet`."}, solver.bullet);
+  v.section({"thesis", "", "Settings of the solver `sphere` with the preset `thesis`."}, solver.thesis);
+  v.section({"sphere", "", "Settings of the solver `sphere` with the presets `standard` and `quick`."}, solver.sphere);
 }
 
 }  // namespace bin_scenes

@@ -11,7 +11,8 @@ namespace bin_scenes {
 std::vector<std::uint8_t> gray_of(const RangeImage& image) {
   if (!image.gray.empty()) return image.gray;
   if (sensor_model(image.sensor.model).gray)
-    throw input_error("has no grey image", "sensor " + image.sensor.name, "ask for it: Generator::Options::gray");
+    throw input_error("the image has no grey image", "sensor " + image.sensor.name,
+                      "set Generator::Options::gray to compute it");
   std::vector<std::uint8_t> levels;
   levels.reserve(image.intensity.size());
   for (const float value : image.intensity) {

@@ -27,14 +27,14 @@ const SensorModel& sensor_model(const std::string& name) {
     if (name == model->name) return *model;
     known += (known.empty() ? "" : ", ") + std::string(model->name);
   }
-  throw input_error("'" + name + "' is no sensor model", "sensors[].model", "one of " + known);
+  throw input_error("there is no sensor model '" + name + "'", "sensors[].model", "use one of " + known);
 }
 
 bool register_sensor_model(const SensorModel& model) {
   BIN_SCENES_ASSERT(model.name && *model.name && model.measure && model.predicted_sigma);
   for (const SensorModel* other : all_models()) {
     if (std::string(model.name) == other->name)
-      throw input_error("there is a sensor model '" + std::string(model.name) + "' already", "register_sensor_model",
+      throw input_error("a sensor model '" + std::string(model.name) + "' exists already", "register_sensor_model",
                         "choose another name");
   }
   all_models().push_back(&model);

@@ -255,7 +255,7 @@ class Industrial(DataSetTest):
         self.refused("view 0 stands inside the bin", camera=views("{count: 3, distance: 0.05}"))
         self.refused("needs either poses or count", camera=views("{distance: 0.5}"))
         self.refused("must be 0 to less than pi/2", camera=views("{count: 3, tilt: 2}"))
-        self.refused("the sensor has a pose, too", camera=views("{count: 3}, pose: [0, 0, 1, 1, 0, 0, 0]"))
+        self.refused("the sensor also has the key `pose`", camera=views("{count: 3}, pose: [0, 0, 1, 1, 0, 0, 0]"))
 
     def test_rigs_bring_sensors_and_what_bop_says_of_them(self):
         for rig, evaluated, extension in (("ipd", "rgb_photoneo", "png"), ("xyzibd", "gray_xyz", "png"),

@@ -33,7 +33,7 @@ def request_texts(tool):
 
     def add(prefix, schema):
         for name, key in schema.get("properties", {}).items():
-            texts[prefix + name] = (" | ".join(key["enum"]) + ": " if "enum" in key else "") + key["description"]
+            texts[prefix + name] = ("One of " + ", ".join(key["enum"]) + ". " if "enum" in key else "") + key["description"]
             add(prefix + name + ".", key)
             add(prefix + name + ".", key.get("items", {}))
 
@@ -50,7 +50,7 @@ def scene_texts(tool):
         if heading:
             prefix = heading[1].replace("[]", "") + "."
         elif row:
-            texts[prefix + row[1]] = (row[2] + ": " if row[2] else "") + row[3].replace("\\|", "|")
+            texts[prefix + row[1]] = ("Unit: " + row[2] + ". " if row[2] else "") + row[3].replace("\\|", "|")
     return texts
 
 

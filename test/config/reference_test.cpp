@@ -5,9 +5,11 @@
 #include "bin_scenes/mesh/mesh_loader.hpp"
 #include "config/config_fixture.hpp"
 
+#include <cctype>
 #include <cstdio>
 #include <iterator>
 #include <map>
+#include <sstream>
 
 namespace bin_scenes {
 namespace {
@@ -27,9 +29,26 @@ TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
   std::ifstream file(std::string(BIN_SCENES_DOCS) + "/use/request.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   char holes[64];
-  std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
+  std::snprintf(holes, sizeof holes, "Holes with a perimeter of at most %g %% of the diagonal",
+                100.0 * LoadOptions().max_hole);
   EXPECT_NE(text.find(holes), std::string::npos);
   EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/use/request.md";
+}
+
+// A reader sees one row only, in the page, in an editor or in an error message.
+TEST(Reference, TextsAreSentences) {
+  for (const std::string& page : {request_reference(), scene_reference()}) {
+    std::istringstream lines(page);
+    std::size_t rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("| `", 0) != 0) continue;
+      ++rows;
+      const std::string text = line.substr(line.rfind(" | ", line.size() - 4) + 3);
+      EXPECT_FALSE(std::islower(static_cast<unsigned char>(text[0]))) << line;
+      EXPECT_EQ(text.substr(text.size() - 3), ". |") << line;
+    }
+    EXPECT_GT(rows, 90u);
+  }
 }
 
 TEST(Reference, TheDocumentedSceneIsThatOfTheTable) {

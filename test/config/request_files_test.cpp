@@ -19,7 +19,7 @@ TEST_F(ConfigTest, ModelsAreFoundByRelativeAbsoluteAndPackagePaths) {
   rules.find_package = [&](const std::string& name) { return name == "mine" ? dir.string() : std::string(); };
   EXPECT_EQ(read("parts: [{model: package://mine/nut.stl}]", {}, rules).parts[0].path, (dir / "nut.stl").string());
   expect_refused("parts: [{model: package://absent/ring.stl}]", {"no package 'absent'", "ROS_PACKAGE_PATH"});
-  expect_refused("parts: [{model: package://my_parts}]", {"names no file"});
+  expect_refused("parts: [{model: package://my_parts}]", {"does not name a file"});
   ::unsetenv("ROS_PACKAGE_PATH");
 }
 

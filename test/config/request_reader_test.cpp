@@ -312,8 +312,8 @@ TEST_F(ConfigTest, WrongTypesSayWhatWasExpectedAndWhatWasFound) {
 
 TEST_F(ConfigTest, WhatIsNoRequestIsSaidSo) {
   expect_refused("", {"empty"});
-  expect_refused("- 1\n- 2\n", {"no map"});
-  expect_refused("just words\n", {"no map"});
+  expect_refused("- 1\n- 2\n", {"not a map of keys"});
+  expect_refused("just words\n", {"not a map of keys"});
   expect_refused("a: [1, 2\nb: 3\n", {"request.yaml:", "not YAML"});
   expect_refused(bolts + "---\n" + bolts, {"behind the end of the request"});
   expect_refused("seed: 1\nseed: 2\n" + bolts, {"request.yaml:2", "'seed' is given twice"});
@@ -326,8 +326,8 @@ TEST_F(ConfigTest, WhatIsNoRequestIsSaidSo) {
 TEST_F(ConfigTest, MalformedSetsAreRefused) {
   expect_refused(bolts, {"key=value"}, {"seed"});
   expect_refused(bolts, {"key=value"}, {"=5"});
-  expect_refused(bolts, {"no item of a list of 1"}, {"parts[3].count=5"});
-  expect_refused("seed: 1\n" + bolts, {"'seed' is a value"}, {"seed.deep=5"});
+  expect_refused(bolts, {"not an index of a list with the length 1"}, {"parts[3].count=5"});
+  expect_refused("seed: 1\n" + bolts, {"'seed' is a single value"}, {"seed.deep=5"});
   expect_refused(bolts, {"not YAML"}, {"bin.inner_size=[1, 2"});
 }
 

@@ -61,7 +61,7 @@ draw: {'parts[0].count': {choice: [1]}}
 amount: {parts: 3}
 """
         lines = self.errors(text % "")
-        self.assertIn("bad.yaml:3: 'draw.parts[0].count': amount sets it (keep one of the two)", "\n".join(lines))
+        self.assertIn("bad.yaml:3: 'draw.parts[0].count': amount sets this value as well (remove one of both)", "\n".join(lines))
         self.assertEqual(len(lines), 1, lines)
         (self.folder / "fixed.yaml").write_text(text % ", fixed: true, poses: [[0, 0, 0.1, 0, 0, 0, 1]]")  # which amount leaves alone
         self.make("fixed.yaml", "out")
@@ -131,7 +131,7 @@ request:
         self.assertEqual(json.loads((self.folder / "out/scenes/scene_000000/scene.json").read_text())["seed"], 3)
 
     def test_a_request_is_no_plan(self):
-        self.assertIn("no plan of a data set", self.errors("parts: [{model: box.stl, count: 1}]\n")[0])
+        self.assertIn("not a plan of a data set", self.errors("parts: [{model: box.stl, count: 1}]\n")[0])
 
     def test_what_bop_cannot_hold_is_refused_before_the_first_scene(self):
         one, other = "{name: a, width: 32, height: 24}", "{name: b, model: laser_line, width: 32, height: 24}"

@@ -79,7 +79,8 @@ TEST_F(SensorsOfARequest, SensorsThatCanNotMeasureAreRefusedBeforeAnythingIsPour
        [](Request& r) {
          r.sensors[0].projector.pose = Pose{Vec3(0, 0, 1), Quat::Identity()};
        }},
-      {"without it there is no triangle", [](Request& r) { r.sensors[0].projector.baseline = 0.0; }},
+      {"is 0, so that nothing can be measured by triangulation",
+       [](Request& r) { r.sensors[0].projector.baseline = 0.0; }},
       {"read_noise", [](Request& r) { r.sensors[0].imager.read_noise = -1.0; }},
       {"the request needs about", [](Request& r) { r.sensors[0].width = r.sensors[0].height = 16384; }},
       {"the request needs about",

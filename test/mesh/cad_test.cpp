@@ -306,7 +306,7 @@ TEST_F(Cad, SolidsThatTouchAreOnePartAndOthersAreListed) {
   options.solid = "pim";
   expect_error(apart, {"has no solid 'pim'", "there are 'base plate', 'pin', 'pin#2'"}, options);
   options.solid = "pin";
-  expect_error(written("part.stl", "solid x\nfacet\nendsolid\n"), {"'solid' chooses one of a STEP or IGES file"},
+  expect_error(written("part.stl", "solid x\nfacet\nendsolid\n"), {"'solid' selects a solid of a STEP or IGES file"},
                options);
 }
 

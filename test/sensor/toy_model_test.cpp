@@ -23,8 +23,8 @@ struct ToySettings {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   auto& s = settings.of<ToySettings>();
-  v.field({"offset", "m", "added to the true depth", at_least(0.0, 0.5)}, s.offset);
-  v.field({"sign", "", "of the offset"}, s.sign,
+  v.field({"offset", "m", "Added to the true depth.", at_least(0.0, 0.5)}, s.offset);
+  v.field({"sign", "", "Sign of the offset."}, s.sign,
           {{"plus", ToySettings::Sign::plus}, {"minus", ToySettings::Sign::minus}});
 }
 
@@ -46,7 +46,7 @@ double sigma_of_toy(const Sensor&, double distance, double, double) {
   return 0.125 * distance;
 }
 
-constexpr SensorModel toy{"toy",        "a constant error of depth", visit_keys, check_toy, nullptr, measure_toy,
+constexpr SensorModel toy{"toy",        "A constant error of depth.", visit_keys, check_toy, nullptr, measure_toy,
                           sigma_of_toy, SensorModel::Image::profiles};
 const bool toy_is_there = register_sensor_model(toy);
 
@@ -85,15 +85,15 @@ TEST(ToyModel, MistakesAreTold) {
   const std::string far = error_of("{toy: {offset: 0.7}}");
   EXPECT_NE(far.find("request:3"), std::string::npos) << far;
   EXPECT_NE(far.find("'sensors[0].toy.offset': must be at least 0 and at most 0.5, is 0.7"), std::string::npos) << far;
-  EXPECT_NE(far.find("m: added to the true depth"), std::string::npos) << far;
+  EXPECT_NE(far.find("Unit: m. Added to the true depth."), std::string::npos) << far;
   EXPECT_NE(error_of("{toy: {offset: 0.25}}").find("is odd"), std::string::npos);
 }
 
 TEST(ToyModel, StandsInTheReference) {
   const std::string page = request_reference();
   EXPECT_NE(page.find("image \\| toy | `ideal` |"), std::string::npos);
-  EXPECT_NE(page.find("### `sensors[].toy`: a constant error of depth"), std::string::npos);
-  EXPECT_NE(page.find("| `offset` | number in [0, 0.5] | `0.01` | m | added to the true depth |"), std::string::npos);
+  EXPECT_NE(page.find("### `sensors[].toy`\nA constant error of depth."), std::string::npos);
+  EXPECT_NE(page.find("| `offset` | number in [0, 0.5] | `0.01` | m | Added to the true depth. |"), std::string::npos);
 }
 
 TEST(ToyModel, Measures) {

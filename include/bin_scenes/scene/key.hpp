@@ -27,12 +27,17 @@ constexpr Range above(double least, double most = std::numeric_limits<double>::i
 struct Key {
   const char* name;
   const char* unit;  ///< "" for a key without a unit
-  const char* text;  ///< the meaning, and what a larger or smaller value costs
+  const char* text;  ///< the meaning and the effect of the value, in full sentences or noun phrases with a full stop
   Range range = anything;
   bool written = true;  ///< false: the present values of other keys make this key meaningless, and it is neither
                         ///< written nor checked
   bool needed = false;  ///< a file without this key is refused
 };
+
+/// Returns the text of a key with its unit, for example "Unit: kg. Mass of one part."
+inline std::string described(const Key& key) {
+  return *key.unit ? "Unit: " + std::string(key.unit) + ". " + key.text : key.text;
+}
 
 /// The values of an enumeration with their names in request files.
 template <class Enum>

@@ -129,9 +129,20 @@ Fringes::Fringes(const StructuredLightSettings& s, int width, int bits)
   }
 }
 
+/// The row of the table for a column, with the fraction of the way to the next one.
+double Fringes::row_of(double column) const {
+  return std::clamp((column + 0.5) * samples, 0.0, static_cast<double>(samples) * (width_ + 1));
+}
+
+void Fringes::add_row(std::size_t row, float weight, float* images) const {
+  const int count = this->images();
+  const float* const light = &table_[row * count];
+  for (int n = 0; n < count; ++n) images[n] += weight * light[n];
+}
+
 void Fringes::add_light(double column, double weight, float* images) const {
   const int count = this->images();
-  const double at = std::clamp((column + 0.5) * samples, 0.0, static_cast<double>(samples) * (width_ + 1));
+  const double at = row_of(column);
   const auto i = static_cast<std::size_t>(at);
   const auto part = static_cast<float>(at - static_cast<double>(i)), w = static_cast<float>(weight);
   const float* const a = &table_[i * count];
@@ -139,11 +150,31 @@ void Fringes::add_light(double column, double weight, float* images) const {
   for (int n = 0; n < count; ++n) images[n] += w * (a[n] + part * (b[n] - a[n]));
 }
 
+/// Sums the weights by rows of the table first: each row is then read once.
+void Fringes::add_light(const std::vector<float>& columns, const std::vector<float>& weights, float* images) const {
+  if (columns.empty()) return;
+  const auto [least, most] = std::minmax_element(columns.begin(), columns.end());
+  const auto first = static_cast<std::size_t>(row_of(*least)), last = static_cast<std::size_t>(row_of(*most)) + 1;
+  thread_local std::vector<float> by_row;
+  by_row.assign(last - first + 1, 0.0f);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double at = row_of(columns[k]);
+    const auto i = static_cast<std::size_t>(at);
+    const auto part = static_cast<float>(at - static_cast<double>(i));
+    by_row[i - first] += weights[k] * (1.0f - part);
+    by_row[i - first + 1] += weights[k] * part;
+  }
+  for (std::size_t i = 0; i < by_row.size(); ++i) {
+    if (by_row[i] > 0.0f) add_row(first + i, by_row[i], images);
+  }
+}
+
 void Fringes::add_even_light(double column, double spread, double weight, float* images) const {
   constexpr double most = 12.0;  // places: a spread of two periods is grey already
   const int places = static_cast<int>(std::clamp(std::ceil(6.0 * spread / period_), 1.0, most));
   for (int k = 0; k < places; ++k) {
-    add_light(column + spread * ((k + 0.5) / places - 0.5), weight / places, images);
+    const double at = row_of(column + spread * ((k + 0.5) / places - 0.5));
+    add_row(static_cast<std::size_t>(at + 0.5), static_cast<float>(weight / places), images);
   }
 }
 

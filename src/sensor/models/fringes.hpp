@@ -20,7 +20,9 @@ class Fringes {
   int images() const { return steps_ + bits_; }
   /// Adds to images[i] weight times the light of pattern i at a column (0 dark to 1 white), blurred by pixel and lens.
   void add_light(double column, double weight, float* images) const;
-  /// Adds light that is constant over `spread` columns.
+  /// Adds the light of many points, whose columns are usually close together. The result is the same but for rounding.
+  void add_light(const std::vector<float>& columns, const std::vector<float>& weights, float* images) const;
+  /// Adds light that is constant over `spread` columns, at columns of the table: within 1/32 of a column.
   void add_even_light(double column, double spread, double weight, float* images) const;
 
   /// Radians a column.
@@ -59,6 +61,8 @@ class Fringes {
 
  private:
   Fringes(const StructuredLightSettings& settings, int width, int bits);
+  double row_of(double column) const;
+  void add_row(std::size_t row, float weight, float* images) const;
 
   int steps_, bits_, width_;
   double period_, averaging_, black_, amplitude_;  ///< averaging: of the amplitude's noise by the steps

@@ -10,43 +10,68 @@ namespace bin_scenes {
 namespace {
 
 void visit_table(KeyVisitor& v, Tabletop::Settings& table) {
-  v.field({"albedo", "", "mean over the table; 0 = no table", at_least(0.0, 1.0)}, table.albedo);
-  v.field({"height", "m", "z in the bin frame; a box bin ends its wall thickness below 0", at_least(-100.0, 100.0)},
+  v.field({"albedo", "", "Mean albedo of the table. With 0, there is no table.", at_least(0.0, 1.0)}, table.albedo);
+  v.field({"height", "m",
+           "Height of the table, as z in the bin frame. The lower side of a bin that is a box is at -`wall_thickness`.",
+           at_least(-100.0, 100.0)},
           table.height);
-  v.field({"mottle", "", "largest deviation of the albedo / albedo, in patches that differ between scenes",
+  v.field({"mottle", "",
+           "Largest deviation of the albedo from its mean, divided by the mean. The table has lighter and darker "
+           "patches, which differ between scenes.",
            at_least(0.0, 1.0)},
           table.mottle);
-  v.field({"patch", "m", "size of the largest patches", above(0.0, 100.0)}, table.patch);
-  v.field({"gloss", "", "share of light that is mirrored", at_least(0.0, 1.0)}, table.gloss);
-  v.field({"roughness", "", "of the mirrored share", at_least(0.0, 1.0)}, table.roughness);
+  v.field({"patch", "m", "Size of the largest patches.", above(0.0, 100.0)}, table.patch);
+  v.field({"gloss", "", "Share of the reflected light that forms highlights.", at_least(0.0, 1.0)}, table.gloss);
+  v.field({"roughness", "", "Width of the highlights. Smaller values give narrower and brighter highlights.",
+           at_least(0.0, 1.0)},
+          table.roughness);
 }
 
 void visit_optics(KeyVisitor& v, ImageOptics& s) {
-  v.field({"f_number", "", "of the lens: what is out of focus blurs; 0 = a pinhole, sharp everywhere",
+  v.field({"f_number", "",
+           "Focal length of the lens divided by the diameter of its aperture. Surfaces that are out of focus are "
+           "blurred. With 0, the camera is a pinhole, and everything is sharp.",
            at_least(0.0, 1000.0)},
           s.f_number);
-  v.field({"focal_length", "m", "of the lens; with f_number it gives the aperture", above(0.0, 10.0)}, s.focal_length);
-  v.field({"focus", "m", "depth that is sharp; 0 = the median depth of the image", at_least(0.0, 1000.0)}, s.focus);
-  v.field({"bevel", "m", "radius of the fillets by which convex edges of parts are shaded; outlines and depth stay",
+  v.field({"focal_length", "m",
+           "Focal length of the lens, which determines the diameter of the aperture together with `f_number`. The "
+           "field of view does not depend on it.",
+           above(0.0, 10.0)},
+          s.focal_length);
+  v.field({"focus", "m", "Depth at which surfaces are sharp. With 0, it is the median depth of the image.",
+           at_least(0.0, 1000.0)},
+          s.focus);
+  v.field({"bevel", "m",
+           "Radius of the fillets with which convex edges of parts are shaded, so that edges shine. Outlines and depth "
+           "do not change.",
            at_least(0.0, 0.1)},
           s.bevel);
   v.field({"reflected_roughness", "",
-           "least roughness of mirrors that are seen in mirrors; lower = sharper, with more grain", at_least(0.0, 1.0)},
+           "Smallest roughness of a shiny surface that is seen by reflection in another shiny surface. Smaller values "
+           "give sharper reflections with more Monte Carlo noise.",
+           at_least(0.0, 1.0)},
           s.soft);
-  v.section({"table", "", "an endless table below the bin, which pictures alone see: it has no depth and no label"},
-            [&](KeyVisitor& keys) { visit_table(keys, s.table); });
+  v.section(
+      {"table", "", "An endless table below the bin. It appears in pictures only, and has neither depth nor labels."},
+      [&](KeyVisitor& keys) { visit_table(keys, s.table); });
 }
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   ImageSettings& s = settings.of<ImageSettings>();
-  v.field({"samples", "", "paths a pixel, a power of two; more = less grain, slower", at_least(1.0, 65536.0)},
+  v.field({"samples", "",
+           "Number of light paths for each pixel, a power of two. More paths give less Monte Carlo noise and take more "
+           "time.",
+           at_least(1.0, 65536.0)},
           s.samples);
   v.field({"denoise", "",
-           "takes the grain of few samples out, with at least 4 of them; edges stay, faint scratches go, too"},
+           "If true, the Monte Carlo noise that remains with few samples is removed; at least 4 samples are needed. "
+           "Edges are preserved, but faint scratches disappear."},
           s.denoise);
-  v.field({"colour", "", "RGB instead of grey"}, s.colour);
+  v.field({"colour", "", "If true, the image is in colour (RGB) instead of grey."}, s.colour);
   visit_optics(v, settings.of<ImageOptics>());
-  v.field({"bits", "", "of a count, 8 or 16, of which BOP has the upper 8", at_least(8.0, 16.0)}, s.bits);
+  v.field({"bits", "", "Number of bits of a pixel, 8 or 16. Files in the layout of BOP contain the upper 8 bits.",
+           at_least(8.0, 16.0)},
+          s.bits);
 }
 
 /// Paths of one image, some 3 million of which a core traces a second.
@@ -54,10 +79,11 @@ constexpr double most_paths = 4e9;
 
 void check_picture(const ImageLamp& lamp, const std::string& key) {
   if (lamp.type != ImageLamp::Type::dome)
-    throw input_error("applies only to lamps of type dome", key, "give type: dome, or leave it out");
+    throw input_error("applies only to lamps of type dome", key,
+                      "set the type of the lamp to dome, or remove this key");
   try {
     if (!(Sky(read_panorama(lamp.picture), Rgb::Ones(), 0.0).flux() > 0.0))
-      throw input_error("is black", lamp.picture, "give a picture that shines");
+      throw input_error("is black", lamp.picture, "use a picture with pixels that are not black");
   } catch (const Error& error) {
     throw input_error("'" + lamp.picture + "' " + error.problem(), key, error.remedy());
   }
@@ -68,23 +94,24 @@ void check(const Sensor& sensor, const std::string& key) {
   if (s.bits != 8 && s.bits != 16)
     throw input_error("is " + std::to_string(s.bits), key + ".image.bits", "give 8 or 16");
   if ((s.samples & (s.samples - 1)) != 0)
-    throw input_error(std::to_string(s.samples) + " is no power of two", key + ".image.samples",
+    throw input_error(std::to_string(s.samples) + " is not a power of two", key + ".image.samples",
                       "give 4, 8, 16, 32, ...");
   if (s.denoise && s.samples < 4)
-    throw input_error("needs at least 4 samples", key + ".image.denoise", "give more samples, or denoise: false");
+    throw input_error("needs at least 4 samples", key + ".image.denoise",
+                      "increase `samples`, or set `denoise: false`");
   const double paths = static_cast<double>(sensor.width) * sensor.height * s.samples;
   if (sensor.model == "image" && paths > most_paths) {
     throw input_error(std::to_string(s.samples) + " for each of " + std::to_string(sensor.width) + " x " +
                           std::to_string(sensor.height) + " pixels are " +
                           std::to_string(static_cast<int>(paths / 1e9)) +
-                          " billion paths; 4 billion are the most, some 20 minutes of a core",
+                          " billion paths; at most 4 billion are allowed, which take about 20 minutes on one core",
                       key + ".image.samples", "give fewer samples or pixels");
   }
   for (std::size_t i = 0; i < s.lamps.size(); ++i) {
     const ImageLamp& lamp = s.lamps[i];
     if (lamp.type == ImageLamp::Type::ring && !(lamp.inner < lamp.outer))
       throw input_error("is not below the outer radius", key + ".lamps[" + std::to_string(i) + "].inner",
-                        "m; 0 = a disk");
+                        "give a radius (m) below `outer`, or 0 for a disk");
     if (!lamp.picture.empty()) check_picture(lamp, key + ".lamps[" + std::to_string(i) + "].picture");
   }
 }
@@ -104,7 +131,9 @@ double sigma(const Sensor&, double, double, double) {
 }
 
 constexpr SensorModel model() {
-  SensorModel m{"image", "a grey or colour image; depth beside it is exact", visit_keys, check, nullptr, measured,
+  SensorModel m{"image",    "Settings of the model `image`: a grey or colour camera, whose depth is exact.",
+                visit_keys, check,
+                nullptr,    measured,
                 sigma};
   m.imager = m.indirect = true;
   m.bounces = 1;

@@ -27,31 +27,43 @@ LaserLine::Setup laser_line_setup(const Sensor& s) {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   LaserLineSettings& s = settings.of<LaserLineSettings>();
-  v.field({"fan", "rad", "opening of the sheet about its z axis", at_least(1e-3, 3.0)}, s.fan);
-  v.field({"power", "", "signal / full well at the line's peak on a white matte surface that faces the laser",
+  v.field({"fan", "rad", "Opening angle of the sheet of light, symmetric about the z axis of the laser.",
+           at_least(1e-3, 3.0)},
+          s.fan);
+  v.field({"power", "",
+           "Signal at the peak of the line on a white matte surface that faces the laser, divided by the full well.",
            above(0.0, 1000.0)},
           s.power);
-  v.field({"blur", "pixel", "standard deviation of the camera's blur; adds to the line's width", at_least(0.2, 100.0)},
+  v.field({"blur", "pixel", "Standard deviation of the blur of the camera. It adds to the width of the line.",
+           at_least(0.2, 100.0)},
           s.blur);
-  v.field({"speckle", "", "contrast of speckle in one pixel; moves the peak; 0 = none", at_least(0.0, 1.0)}, s.speckle);
-  v.field({"min_signal", "", "peak signal / full well below which a line is missing (code 4)", above(0.0, 1.0)},
+  v.field({"speckle", "",
+           "Contrast of the speckle in one pixel. Speckle displaces the peak of the line. With 0, there is no speckle.",
+           at_least(0.0, 1.0)},
+          s.speckle);
+  v.field({"min_signal", "",
+           "Smallest peak signal at which a line is detected, divided by the full well. Weaker lines are missing "
+           "(validity code 4).",
+           above(0.0, 1.0)},
           s.min_signal);
-  v.field({"peak", "", "which of two lines in a column is reported"}, s.peak,
-          {{"strongest", LaserLineSettings::Peak::strongest}, {"nearest", LaserLineSettings::Peak::nearest}});
+  v.field({"peak", "",
+           "Which line is reported if a column of the image contains two. `strongest`: the one with the larger signal. "
+           "`nearest`: the one with the smaller depth."},
+          s.peak, {{"strongest", LaserLineSettings::Peak::strongest}, {"nearest", LaserLineSettings::Peak::nearest}});
 }
 
 void check(const Sensor& sensor, const std::string& key) {
   check_baseline(key + ".laser.baseline", sensor.laser.baseline);
   const Vec3& direction = sensor.scan.direction;
   if (!direction.allFinite() || !(direction.norm() > 0.0))
-    throw input_error("is no direction", key + ".scan.direction", "for instance [1, 0, 0]");
+    throw input_error("has length 0", key + ".scan.direction", "give a direction, for instance [1, 0, 0]");
 }
 
 void check_places(const Sensor& sensor, const std::string& where) {
   const Vec3 sheet = sensor.laser.pose->orientation * Vec3::UnitX();
   if (std::abs(sheet.dot(sensor.laser.pose->position - sensor.pose->position)) < 1e-6)
-    throw input_error("the sheet of light passes the camera: there is no triangle to measure with", where,
-                      "move the laser across its sheet (x of its frame), or give it a baseline");
+    throw input_error("the sheet of light contains the camera, so that nothing can be measured by triangulation", where,
+                      "move the laser along the x axis of its frame, or give a baseline");
 }
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
@@ -104,7 +116,10 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  SensorModel m{"laser_line", "the line of light and its peak", visit_keys, check, check_places, measured, sigma};
+  SensorModel m{"laser_line", "Settings of the model `laser_line`: a sheet of light, whose line a camera detects.",
+                visit_keys,   check,
+                check_places, measured,
+                sigma};
   m.image = SensorModel::Image::profiles;
   m.imager = m.laser = m.indirect = true;
   m.bounces = 1;

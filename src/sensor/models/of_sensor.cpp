@@ -14,7 +14,8 @@ const Names<MixedPixels> mixed_pixels{{"remove", MixedPixels::remove}, {"keep", 
 
 void check_baseline(const std::string& key, double baseline) {
   if (baseline == 0.0)
-    throw input_error("is 0: without it there is no triangle to measure with", key, "0.1 to 0.3 m is usual");
+    throw input_error("is 0, so that nothing can be measured by triangulation", key,
+                      "give a baseline, usually 0.1 to 0.3 m");
 }
 
 IndirectField::Setup indirect_of(const Sensor& sensor) {

@@ -44,104 +44,138 @@ const Names<Persistence> persistences{
 };
 
 void visit_spatial(KeyVisitor& v, SpatialFilter& s) {
-  v.field({"alpha", "", "weight of a pixel against the one before it; smaller = smoother, edges are wider",
+  v.field({"alpha", "",
+           "Weight of a pixel relative to the result of the pixel before it. Smaller values smooth more and make edges "
+           "wider.",
            at_least(0.01, 1.0)},
           s.alpha);
   v.field({"delta", "pixel",
-           "neighbours whose disparities differ by as much or more do not influence each other; larger = steps of "
-           "depth become ramps",
+           "Difference of disparity from which neighbouring pixels do not influence each other. With larger values, "
+           "steps of depth become ramps.",
            at_least(0.0, 1000.0)},
           s.delta);
-  v.field({"iterations", "", "each is a pass to the right, left, down and up; 0 = off", at_least(0.0, 10.0)},
+  v.field({"iterations", "",
+           "Number of iterations. Each consists of a pass to the right, to the left, down and up. With 0, the filter "
+           "is off.",
+           at_least(0.0, 10.0)},
           s.iterations);
 }
 
 void visit_temporal(KeyVisitor& v, TemporalFilter& s) {
-  v.field({"frames", "", "images of the scene at rest that are averaged; 1 = off; decoded: time grows with it",
+  v.field({"frames", "",
+           "Number of images of the scene at rest that are averaged. With 1, the filter is off. With `fidelity: "
+           "decoded`, the computing time grows with it.",
            at_least(1.0, 1000.0)},
           s.frames);
-  v.field({"alpha", "", "weight of an image against the result before it; smaller = smoother", at_least(0.01, 1.0)},
+  v.field({"alpha", "", "Weight of an image relative to the result before it. Smaller values smooth more.",
+           at_least(0.01, 1.0)},
           s.alpha);
-  v.field({"delta", "pixel", "a pixel whose disparity differs from its last result by as much or more starts again",
-           at_least(0.0, 1000.0)},
-          s.delta);
+  v.field(
+      {"delta", "pixel",
+       "Difference of disparity between a pixel and its last result from which the average of the pixel starts again.",
+       at_least(0.0, 1000.0)},
+      s.delta);
   v.field({"persistence", "",
-           "decoded: a missing pixel keeps its last result if it was measured in so many of the last images"},
+           "Only with `fidelity: decoded`: a missing pixel keeps its last result if it was measured in so many of the "
+           "last images. For example, `2_of_4` means in at least 2 of the last 4 images."},
           s.persistence, persistences);
 }
 
 void visit_census(KeyVisitor& v, StereoPipeline& s) {
-  v.field({"census", "pixel", "census: odd edge of the window of a signature; larger = less noise, wider edges",
+  v.field({"census", "pixel",
+           "Only with `matcher: census`: edge length of the window from which a signature is computed, an odd number. "
+           "A larger window gives less noise and wider edges.",
            at_least(3.0, 9.0)},
           s.census);
   v.field({"second_peak", "",
-           "census: share of all signature bits of the window by which any other disparity must fit worse than the "
-           "best one; more = wider gaps at edges, more holes",
+           "Only with `matcher: census`: share of all bits of the signatures in a window by which every other "
+           "disparity must fit worse than the best one. Larger values cause wider gaps at edges and more holes.",
            at_least(0.0, 1.0)},
           s.second_peak);
 }
 
 void visit_filters(KeyVisitor& v, StereoPipeline& s) {
   v.field({"disparity_step", "pixel",
-           "with noise: disparities are rounded to multiples of it, as the number format of a device does; 0 = not "
-           "rounded",
+           "If `noise` is true, disparities are rounded to multiples of this value, as the number format of a device "
+           "does. With 0, they are not rounded.",
            at_least(0.0, 1.0)},
           s.disparity_step);
   v.field({"decimation", "",
-           "with noise: the device matches images of so many times width and height, and a delivered pixel is the "
-           "median (2, 3) or mean (4 to 8) of a square; 1 = off; more = less noise, slower",
+           "If `noise` is true, the device matches images of this many times the width and height. A delivered pixel "
+           "is the median (2 and 3) or the mean (4 to 8) of a square of their pixels. Larger values give less noise "
+           "and take more time. With 1, there is no decimation.",
            at_least(1.0, 8.0)},
           s.decimation);
-  v.section({"spatial", "", "edge-preserving recursive filter of disparities; holes are not filled"},
+  v.section({"spatial", "", "Recursive filter of the disparities, which preserves edges. Holes are not filled."},
             [&s](KeyVisitor& inner) { visit_spatial(inner, s.spatial); });
-  v.section({"temporal", "", "exponential average of successive images"},
+  v.section({"temporal", "", "Exponential average of the disparities of successive images."},
             [&s](KeyVisitor& inner) { visit_temporal(inner, s.temporal); });
   v.field({"hole_filling", "",
-           "with noise: a missing pixel takes the depth of the neighbour to the left, or of the farthest or nearest "
-           "among those to the left, above and below"},
+           "If `noise` is true: from which neighbour a missing pixel takes its depth. `left`: the neighbour to the "
+           "left. `farthest` and `nearest`: the farthest or nearest one of the neighbours to the left, above and "
+           "below. `off`: holes are not filled."},
           s.hole_filling, fillings);
 }
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   StereoSettings& s = settings.of<StereoSettings>();
   StereoPipeline& pipeline = settings.of<StereoPipeline>();
-  v.field({"baseline", "m", "to the second camera along the first one's x; longer = less noise, more occlusion",
+  v.field({"baseline", "m",
+           "Distance from the first camera to the second one, along the x axis of the first. A longer baseline gives "
+           "less noise and more occlusion.",
            at_least(1e-4, 100.0)},
           s.baseline);
-  v.field(
-      {"disparities", "pixel",
-       "multiple of 16; what lies nearer than focal length * baseline / disparities is unmatched; time grows with it; "
-       "decoded: at most 2047 less focal length * baseline / far",
-       at_least(16.0, 2032.0)},
-      s.disparities);
+  v.field({"disparities", "pixel",
+           "Number of disparities that are searched, a multiple of 16. The search begins at the disparity of `far`; "
+           "surfaces that are too near for this range are not matched. The computing time grows with the number. With "
+           "`fidelity: decoded`, it can be at most 2047 - focal length * baseline / far.",
+           at_least(16.0, 2032.0)},
+          s.disparities);
   v.field({"matcher", "",
-           "decoded: semi_global compares intensities along several paths, census compares signatures within a window "
-           "and leaves gaps at edges, as compact cameras do"},
+           "Only with `fidelity: decoded`: how the two images are matched. `semi_global`: intensities are compared "
+           "along several paths. `census`: signatures are compared within a window, which leaves gaps at edges, as "
+           "compact cameras do."},
           pipeline.matcher, matchers);
-  v.field({"window", "pixel", "odd: the matcher's block; larger = less noise, rounder edges", at_least(1.0, 51.0)},
+  v.field({"window", "pixel",
+           "Edge length of the window that the matcher compares, an odd number. A larger window gives less noise and "
+           "rounder edges.",
+           at_least(1.0, 51.0)},
           s.window);
   visit_census(v, pipeline);
-  v.field(
-      {"dots", "", "share of the projector's pixels that are dots; 0 = no pattern, passive stereo", at_least(0.0, 0.9)},
-      s.dots);
-  v.field({"pattern", "", "random: each pixel of the projector by chance; spread: one dot in each square of a grid"},
+  v.field({"dots", "", "Share of the projector's pixels that are dots. With 0, there is no pattern (passive stereo).",
+           at_least(0.0, 0.9)},
+          s.dots);
+  v.field({"pattern", "",
+           "How the dots are distributed. `random`: each pixel of the projector is a dot with the same probability. "
+           "`spread`: there is one dot in each square of a grid."},
           pipeline.layout, layouts);
   v.field({"uniqueness", "%",
-           "semi_global: by which the best match must beat the second; more = more holes, fewer outliers",
+           "Only with `matcher: semi_global`: margin by which the best match must be better than the second-best one. "
+           "Larger values cause more holes and fewer outliers.",
            at_least(0.0, 100.0)},
           s.uniqueness);
-  v.field({"max_difference", "pixel", "left-right check; smaller = more holes, fewer outliers", at_least(0.0, 100.0)},
+  v.field({"max_difference", "pixel",
+           "Largest allowed difference between the disparities that the matching from left to right and from right to "
+           "left gives. Smaller values cause more holes and fewer outliers.",
+           at_least(0.0, 100.0)},
           s.max_difference);
   v.field({"min_texture", "grey levels",
-           "of 255: standard deviation in a window, beyond noise, below which nothing is matched; 0 = noise is matched "
-           "as well",
+           "Smallest standard deviation of the grey levels (0 to 255) in a window, beyond noise, at which a pixel is "
+           "matched. With 0, noise is matched as well.",
            at_least(0.0, 255.0)},
           s.min_texture);
-  v.field({"speckle_size", "pixel", "smaller islands of disparity are removed; 0 = none are", at_least(0.0, 1e5)},
-          s.speckle_size);
-  v.field({"disparity_noise", "pixel", "analytic: standard deviation at full signal", at_least(0.0, 10.0)},
+  v.field(
+      {"speckle_size", "pixel",
+       "Number of pixels that an isolated region of disparities must have to be kept. With 0, all regions are kept.",
+       at_least(0.0, 1e5)},
+      s.speckle_size);
+  v.field({"disparity_noise", "pixel",
+           "Only with `fidelity: analytic`: standard deviation of the disparity at full signal.", at_least(0.0, 10.0)},
           s.disparity_noise);
-  v.field({"min_signal", "", "analytic: signal / full well below which nothing is matched (code 8)", above(0.0, 1.0)},
+  v.field({"min_signal", "",
+           "Only with `fidelity: analytic`: smallest signal at which a pixel is matched, divided by the full well. "
+           "Darker pixels are missing (validity code 8).",
+           above(0.0, 1.0)},
           s.min_signal);
   visit_filters(v, pipeline);
 }
@@ -149,17 +183,19 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
 void check(const Sensor& sensor, const std::string& key) {
   const auto& s = sensor.settings.of<StereoSettings>();
   if (s.disparities % 16 != 0)
-    throw input_error("is no multiple of 16", key + ".stereo.disparities", "the matcher wants one: 64, 128, 256");
-  if (s.window % 2 == 0) throw input_error("is even", key + ".stereo.window", "5, 7 or 9 is usual");
+    throw input_error("is not a multiple of 16", key + ".stereo.disparities", "give 64, 128 or 256, for instance");
+  if (s.window % 2 == 0) throw input_error("is even", key + ".stereo.window", "give an odd number, usually 5, 7 or 9");
   const auto& pipeline = sensor.settings.of<StereoPipeline>();
-  if (pipeline.census % 2 == 0) throw input_error("is even", key + ".stereo.census", "5, 7 or 9 is usual");
+  if (pipeline.census % 2 == 0)
+    throw input_error("is even", key + ".stereo.census", "give an odd number, usually 5, 7 or 9");
   if (pipeline.matcher == StereoMatcher::census && s.window > most_census_window(pipeline.census))
-    throw input_error("window and census are too large together", key + ".stereo.window",
-                      "at most " + std::to_string(most_census_window(pipeline.census)) + " with this census");
+    throw input_error(
+        "`window` and `census` together are too large", key + ".stereo.window",
+        "give a window of at most " + std::to_string(most_census_window(pipeline.census)) + " with this census");
   if (sensor.model == "stereo" &&
       std::any_of(sensor.distortion.begin(), sensor.distortion.end(), [](double d) { return d != 0.0; })) {
     throw input_error("a stereo camera delivers rectified images, which have no distortion", key + ".distortion",
-                      "leave it out");
+                      "remove this key");
   }
 }
 
@@ -180,9 +216,9 @@ void check_places(const Sensor& sensor, const std::string& where) {
   const auto& s = sensor.settings.of<StereoSettings>();
   const double least = matched_lens(sensor).fx * s.baseline / sensor.far;
   if (sensor.fidelity == Fidelity::decoded && least + s.disparities > most)
-    throw input_error("disparities of " + std::to_string(std::lround(least)) + " (at far) to " +
+    throw input_error("the depth range needs disparities of " + std::to_string(std::lround(least)) + " (at far) to " +
                           std::to_string(std::lround(least + s.disparities)) + " pixels, more than the " +
-                          std::to_string(most) + " that are matched",
+                          std::to_string(most) + " that the matcher can find",
                       where, "lower stereo.disparities, baseline or width, or set far farther away");
 }
 
@@ -215,7 +251,10 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  SensorModel m{"stereo", "the second camera, dots and matching", visit_keys, check, check_places, measured, sigma};
+  SensorModel m{"stereo",     "Settings of the model `stereo`: second camera, dot pattern and matching.",
+                visit_keys,   check,
+                check_places, measured,
+                sigma};
   m.imager = m.projector = m.fidelity = m.indirect = m.gray = true;
   m.report = report;
   return m;

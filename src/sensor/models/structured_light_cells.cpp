@@ -55,14 +55,10 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
 }
 
 StructuredLight::Strip::Phasors StructuredLight::Strip::phasors(const Cells& own, double turn) const {
-  Phasors out;
-  for (int k = 0; k < per_pixel; ++k) {
-    out.cosine[k] = out.sine[k] = 0.0f;
-    if (own.white[k] <= 0.0f) continue;
-    out.cosine[k] = static_cast<float>(own.white[k] * std::cos(turn * own.column[k]));
-    out.sine[k] = static_cast<float>(own.white[k] * std::sin(turn * own.column[k]));
-  }
-  return out;
+  const Values phase = static_cast<float>(turn) * own.column;
+  const Values none = Values::Zero();  // the column of a cell without light may be no number
+  return {(own.white > 0.0f).select(own.white * phase.cos(), none),
+          (own.white > 0.0f).select(own.white * phase.sin(), none)};
 }
 
 /// Cells asked by rays; the corners of pixels are known.
@@ -114,13 +110,13 @@ StructuredLight::Strip::Cells StructuredLight::Strip::flat(const Pixel& pixel, c
   Cells own;
   own.diffuse = static_cast<float>(model_.diffuse(index));
   own.outside = model_.codes_[index] == Validity::outside;
-  for (int k = 0; k < per_pixel; ++k) {
-    const double u = cells::across(k), v = cells::down(k);
-    const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
-    own.column[k] = static_cast<float>(model_.columns_[index] + slope.x() * u + slope.y() * v);
-    own.white[k] = model_.codes_[index] == Validity::valid ? static_cast<float>(model_.whites_[index]) : 0.0f;
-    own.depth[k] = static_cast<float>(pixel.plane / here);
-  }
+  const auto right = static_cast<float>(pixel.normal.x() / lens.fx),
+             below = static_cast<float>(pixel.normal.y() / lens.fy);
+  const auto center = static_cast<float>(pixel.normal.dot(pixel.ray)), plane = static_cast<float>(pixel.plane);
+  own.column = static_cast<float>(model_.columns_[index]) + static_cast<float>(slope.x()) * across_ +
+               static_cast<float>(slope.y()) * down_;
+  own.white.setConstant(model_.codes_[index] == Validity::valid ? static_cast<float>(model_.whites_[index]) : 0.0f);
+  own.depth = plane / (center + right * across_ + below * down_);
   return own;
 }
 

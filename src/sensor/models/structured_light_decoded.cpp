@@ -56,12 +56,16 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
   double background = ambient(i);
   bool mixed = false;
   if (near_edge) {
+    thread_local std::vector<float> columns, whites;
+    columns.clear(), whites.clear();
     const Blend blend = strip.blend(p, [&](const Strip::Cells& cells, const Strip::Values& weight) {
       for (int k = 0; k < Strip::per_pixel; ++k) {
-        const double white = gain_ * weight[k] * cells.white[k];
-        if (white > 0.0) add_light(cells.column[k], white, images.data());
+        const auto white = static_cast<float>(gain_ * weight[k] * cells.white[k]);
+        if (white > 0.0f) columns.push_back(cells.column[k]), whites.push_back(white);
       }
     });
+    fringes_.add_light(columns, whites, images.data());
+    if (second_) second_->add_light(columns, whites, images.data() + fringes_.images());
     blend_white_light(blend, i, out);
     if (blend.outside) out.validity[i] = Validity::outside;
     if (blend.outside || (code == Validity::shadow && blend.white <= 0.0 && !twice)) return;

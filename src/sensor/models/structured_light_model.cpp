@@ -36,25 +36,44 @@ StructuredLight::Setup structured_light_setup(const Sensor& s) {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   StructuredLightSettings& s = settings.of<StructuredLightSettings>();
-  v.field({"steps", "", "images of the phase shift; noise falls with the square root", at_least(3.0, 64.0)}, s.steps);
-  v.field({"period", "pixel", "projector pixels a fringe; shorter = less noise, more Gray images, sooner blurred",
+  v.field({"steps", "", "Number of images of the phase shift. The noise is proportional to 1 / sqrt(steps).",
+           at_least(3.0, 64.0)},
+          s.steps);
+  v.field({"period", "pixel",
+           "Period of the fringes, in pixels of the projector. A shorter period gives less noise, but needs more "
+           "Gray-code images and is blurred sooner.",
            at_least(4.0, 4096.0)},
           s.period);
-  v.field({"gray_bits", "", "Gray-code images; 0 = as many as the projector's width needs", at_least(0.0, 14.0)},
-          s.gray_bits);
-  v.field({"contrast", "", "(white - black) / (white + black) of the projector", at_least(0.01, 1.0)}, s.contrast);
-  v.field({"defocus", "pixel", "standard deviation of the projector's blur, its pixels; 0 = sharp", at_least(0.0)},
+  v.field(
+      {"gray_bits", "", "Number of Gray-code images. With 0, there are as many as the width of the projector needs.",
+       at_least(0.0, 14.0)},
+      s.gray_bits);
+  v.field({"contrast", "", "Contrast of the projector: (white - black) / (white + black).", at_least(0.01, 1.0)},
+          s.contrast);
+  v.field({"defocus", "pixel",
+           "Standard deviation of the blur of the projector, in pixels of the projector. With 0, the pattern is sharp.",
+           at_least(0.0)},
           s.defocus);
-  v.field({"gamma", "", "decoded: the projector's exponent after calibration; 1 = linear", at_least(0.1, 10.0)},
+  v.field({"gamma", "",
+           "Only with `fidelity: decoded`: exponent of the projector's response that remains after calibration. With "
+           "1, the response is linear.",
+           at_least(0.1, 10.0)},
           s.gamma);
-  v.field({"min_modulation", "", "amplitude / full well below which a pixel is dark (code 4)", above(0.0, 1.0)},
+  v.field({"min_modulation", "",
+           "Smallest amplitude of the fringes at which a pixel is measured, divided by the full well. Darker pixels "
+           "are missing (validity code 4).",
+           above(0.0, 1.0)},
           s.min_modulation);
-  v.field({"mixed", "", "pixels of foreground and background: remove = invalid (code 6), keep = flying points"},
+  v.field({"mixed", "",
+           "Treatment of pixels that see both foreground and background. `remove`: they are invalid (validity code 6). "
+           "`keep`: they have a depth between both (flying points)."},
           s.mixed, mixed_pixels);
-  v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
+  v.field({"edge_step", "m", "Smallest step of depth inside a pixel that makes it a mixed pixel.", above(0.0, 10.0)},
+          s.edge_step);
   v.field({"indirect_error", "",
-           "largest standard error of the light that met other surfaces, as a share of the mean direct light: places "
-           "that need it get more rays than indirect_samples, at most 1024; smaller = less noise, slower; 0 = none do",
+           "Largest standard error of the light that other surfaces reflect, as a share of the mean direct light. "
+           "Where it would be larger, more than `indirect_samples` rays are used, but at most 1024. Smaller values "
+           "give less noise and take more time. With 0, no place gets more rays.",
            at_least(0.0, 1.0)},
           settings.of<IndirectSettings>().error);
 }
@@ -64,15 +83,15 @@ void check_reflection(const Sensor& sensor, const std::string& key) {
   const ReflectionFilter& filter = sensor.settings.of<FilterSettings>().reflection;
   if (filter.step == 0.0) return;
   if (sensor.model != "structured_light")
-    throw input_error("compares fringes, and model " + sensor.model + " projects none", key,
-                      "leave it out, or take structured_light");
+    throw input_error("compares fringes, but model " + sensor.model + " does not project fringes", key,
+                      "remove this key, or use the model structured_light");
   const double ratio = filter.period / s.period;
   if (ratio > 0.8 && ratio < 1.25)
-    throw input_error("is nearly that of the first fringe: light that bounced moves both alike", key + ".period",
-                      "a third of structured_light.period or less is usual");
+    throw input_error("is nearly the period of the first fringe, so that indirect light shifts both equally",
+                      key + ".period", "give a shorter period, usually at most a third of structured_light.period");
   if (s.defocus > 0.5 * filter.period)
-    throw input_error("is less than twice structured_light.defocus: that fringe would be grey", key + ".period",
-                      "give a longer period");
+    throw input_error("is less than twice structured_light.defocus, so that the blur would remove the fringe",
+                      key + ".period", "give a longer period");
 }
 
 void check(const Sensor& sensor, const std::string& key) {
@@ -81,7 +100,8 @@ void check(const Sensor& sensor, const std::string& key) {
   check_reflection(sensor, key + ".filter.reflection");
   const std::string section = key + ".structured_light";
   if (s.defocus > 0.5 * s.period)
-    throw input_error("is more than half a period", section + ".defocus", "projector pixels; 0 = sharp");
+    throw input_error("is more than half a period", section + ".defocus",
+                      "give fewer projector pixels, or 0 for a sharp pattern");
   if (sensor.model != "structured_light" || s.gray_bits == 0) return;
   int needed = 1;  // the code counts half periods: models/fringes.hpp
   while (std::ldexp(1.0, needed) < 2.0 * std::ceil(sensor.projector.width / s.period)) ++needed;
@@ -95,8 +115,9 @@ void check(const Sensor& sensor, const std::string& key) {
 
 void check_places(const Sensor& sensor, const std::string& where) {
   if ((sensor.projector.pose->position - sensor.pose->position).norm() < 1e-6)
-    throw input_error("the projector stands at the camera: there is no triangle to measure with", where,
-                      "move it aside, or give it a baseline");
+    throw input_error(
+        "the projector is at the position of the camera, so that nothing can be measured by triangulation", where,
+        "move the projector sideways, or give a baseline");
 }
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
@@ -126,8 +147,13 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  SensorModel m{
-      "structured_light", "fringes: phase shift and Gray code", visit_keys, check, check_places, measured, sigma};
+  SensorModel m{"structured_light",
+                "Settings of the model `structured_light`: fringe projection by phase shift and Gray code.",
+                visit_keys,
+                check,
+                check_places,
+                measured,
+                sigma};
   m.imager = m.projector = m.fidelity = m.indirect = m.gray = true;
   m.bounces = 1;
   m.report = report;

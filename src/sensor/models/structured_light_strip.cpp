@@ -50,7 +50,10 @@ StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
       }
     }
   }
-  for (Values& w : weights_) w /= static_cast<float>(sum);
+  for (Values& w : weights_) {
+    w /= static_cast<float>(sum);
+    shares_.push_back(w.sum());
+  }
 
   const std::size_t pixels = static_cast<std::size_t>(bottom_ - top_) * width_;
   near_.assign(pixels, 0);

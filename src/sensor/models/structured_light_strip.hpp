@@ -96,6 +96,7 @@ class StructuredLight::Strip {
   std::vector<Phasors> second_;  ///< phasors of the second fringe, by cells; empty: there is none
   Values across_, down_;         ///< places of cells in their pixel
   std::vector<Values> weights_;  ///< weights of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
+  std::vector<float> shares_;    ///< sums of weights_
 };
 
 /// The light of a pixel near an edge.
@@ -106,7 +107,8 @@ struct StructuredLight::Blend {
   double second_cosine = 0.0, second_sine = 0.0;  ///< phasor of the second fringe, if there is one
   double column = 0.0;                            ///< column of the brightest cell
   double diffuse = 0.0;                           ///< share of ambient light sent back
-  double off_share = 0.0;  ///< share of the footprint that is on other faces, farther away than edge_step
+  double off_share = 0.0;  ///< share of the footprint that is on other faces, farther away than edge_step; not summed
+                           ///< further once it is above `tolerated`
   bool outside = false;    ///< a part lies outside the projector's field
 };
 
@@ -118,8 +120,9 @@ StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const U
   for (int v = std::max(0, y - reach_); v <= std::min(height_ - 1, y + reach_); ++v) {
     for (int u = std::max(0, x - reach_); u <= std::min(width_ - 1, x + reach_); ++u) {
       const std::int32_t at = cells_of_[static_cast<std::size_t>(v) * width_ + u - origin_];
-      const Values& weight = weights_[static_cast<std::size_t>((v - y + reach_) * (2 * reach_ + 1) + u - x + reach_)];
-      const float share = weight.sum();
+      const auto place = static_cast<std::size_t>((v - y + reach_) * (2 * reach_ + 1) + u - x + reach_);
+      const Values& weight = weights_[place];
+      const float share = shares_[place];
       total += share;
       if (at < 0) {  // nothing is there
         out.off_share += share;
@@ -128,7 +131,8 @@ StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const U
       const Cells& own = cells_[static_cast<std::size_t>(at)];
       out.diffuse += share * own.diffuse;
       out.outside = out.outside || (own.outside && share > 0.01f);
-      if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) out.off_share += off_face(pixel, u - x, v - y, own, weight);
+      const bool beside = std::abs(u - x) <= 1 && std::abs(v - y) <= 1;
+      if (beside && out.off_share <= Blend::tolerated) out.off_share += off_face(pixel, u - x, v - y, own, weight);
       const float light = weight[own.brightest] * own.white[own.brightest];
       if (light <= 0.0f) continue;
       out.white += (weight * own.white).sum();

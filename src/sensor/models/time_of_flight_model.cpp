@@ -10,33 +10,51 @@ namespace {
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   TimeOfFlightSettings& s = settings.of<TimeOfFlightSettings>();
   v.field({"axial", "m",
-           "smallest standard deviation of depth, reached at axial_distance on a surface that faces the camera",
+           "Smallest standard deviation of the depth. It is reached on a surface that faces the camera at the depth "
+           "`axial_distance`.",
            at_least(0.0, 10.0)},
           s.axial);
-  v.field(
-      {"axial_growth", "1/m",
-       "multiplied by (z - axial_distance)^2 and added to the standard deviation; z is the depth", at_least(0.0, 10.0)},
-      s.axial_growth);
-  v.field({"axial_distance", "m", "depth at which the noise is smallest", at_least(0.0, 1000.0)}, s.axial_distance);
+  v.field({"axial_growth", "1/m",
+           "Growth of the noise with the depth z: this value * (z - axial_distance)^2 is added to the standard "
+           "deviation of the depth.",
+           at_least(0.0, 10.0)},
+          s.axial_growth);
+  v.field({"axial_distance", "m", "Depth at which the noise is smallest.", at_least(0.0, 1000.0)}, s.axial_distance);
   v.field({"axial_angle", "m^-0.5",
-           "multiplied by z^1.5 t^2 / (pi/2 - t)^2 and added to the standard deviation; t is the angle of incidence",
+           "Growth of the noise with the angle of incidence t (rad): this value * z^1.5 * t^2 / (pi/2 - t)^2 is added "
+           "to the standard deviation of the depth z.",
            at_least(0.0, 10.0)},
           s.axial_angle);
-  v.field({"lateral", "pixel", "jitter of the ray; moves edges, never a plane", at_least(0.0, 100.0)}, s.lateral);
-  v.field({"lateral_angle", "pixel", "times t / (pi/2 - t)", at_least(0.0, 100.0)}, s.lateral_angle);
-  v.field({"albedo", "", "for which the figures hold: noise goes with sqrt(albedo / signal); 0 = same for all",
+  v.field({"lateral", "pixel",
+           "Standard deviation of a random deviation of the ray of a pixel. It displaces edges, but adds no noise to "
+           "planes.",
+           at_least(0.0, 100.0)},
+          s.lateral);
+  v.field({"lateral_angle", "pixel",
+           "Growth of `lateral` with the angle of incidence t (rad): this value * t / (pi/2 - t) is added to it.",
+           at_least(0.0, 100.0)},
+          s.lateral_angle);
+  v.field({"albedo", "",
+           "Albedo for which the noise of the depth is stated. For other surfaces, it is multiplied by sqrt(albedo / "
+           "signal). With 0, it is the same for all surfaces.",
            at_least(0.0, 1.0)},
           s.albedo);
   v.field({"modulation", "MHz",
-           "of the light; depth repeats after 150 m / it, which devices resolve by further frequencies",
+           "Modulation frequency of the light. Depth repeats after 150 m divided by this value in MHz; devices resolve "
+           "this ambiguity by further frequencies.",
            at_least(0.1, 10000.0)},
           s.modulation);
-  v.field({"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)",
+  v.field({"min_signal", "",
+           "Smallest signal at which a pixel is measured, divided by the signal of a white surface that faces the "
+           "camera at 1 m. Darker pixels are missing (validity code 4).",
            above(0.0, 1.0)},
           s.min_signal);
-  v.field({"mixed", "", "pixels of foreground and background: keep = flying points, remove = invalid (code 6)"},
+  v.field({"mixed", "",
+           "Treatment of pixels that see both foreground and background. `keep`: they have a depth between both "
+           "(flying points). `remove`: they are invalid (validity code 6)."},
           s.mixed, mixed_pixels);
-  v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
+  v.field({"edge_step", "m", "Smallest step of depth inside a pixel that makes it a mixed pixel.", above(0.0, 10.0)},
+          s.edge_step);
 }
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
@@ -59,7 +77,13 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  SensorModel m{"time_of_flight", "noise along the ray and across it", visit_keys, nullptr, nullptr, measured, sigma};
+  SensorModel m{"time_of_flight",
+                "Settings of the model `time_of_flight`: noise along the ray of a pixel and across it.",
+                visit_keys,
+                nullptr,
+                nullptr,
+                measured,
+                sigma};
   m.indirect = m.gray = true;
   m.bounces = 1;
   return m;

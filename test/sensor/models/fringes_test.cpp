@@ -55,6 +55,16 @@ TEST(Fringes, AmplitudeIsWhatTheImagesShow) {
   }
 }
 
+TEST(Fringes, LightOfManyPointsIsTheSumOfEach) {
+  const Fringes fringes(StructuredLightSettings{}, 1280);
+  const std::vector<float> columns{300.2f, 301.9f, 300.2f, 298.4f, -9.0f, 1300.0f},
+      whites{0.1f, 0.3f, 0.05f, 0.2f, 0.1f, 0.1f};
+  std::vector<float> each(fringes.images(), 0.0f), all = each;
+  for (std::size_t k = 0; k < columns.size(); ++k) fringes.add_light(columns[k], whites[k], each.data());
+  fringes.add_light(columns, whites, all.data());
+  for (int n = 0; n < fringes.images(); ++n) EXPECT_NEAR(all[n], each[n], 1e-6) << n;
+}
+
 TEST(Fringes, AFootprintWeakensTheAmplitude) {
   const Fringes fringes(StructuredLightSettings{}, 1280);
   std::vector<float> images(fringes.images(), 0.0f);

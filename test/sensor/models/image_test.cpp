@@ -236,7 +236,7 @@ TEST(Image, RefusesWhatMakesNoSense) {
   EXPECT_EQ(problem(sensor), "");
   auto& settings = sensor.settings.of<ImageSettings>();
   settings.samples = 12;
-  EXPECT_EQ(problem(sensor), "sensors[0].image.samples: 12 is no power of two");
+  EXPECT_EQ(problem(sensor), "sensors[0].image.samples: 12 is not a power of two");
   settings.samples = 16384, sensor.width = 1280, sensor.height = 976;
   EXPECT_NE(problem(sensor).find("20 billion paths"), std::string::npos) << problem(sensor);
   settings.samples = 16, settings.bits = 12;
