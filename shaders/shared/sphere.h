@@ -274,7 +274,7 @@ struct SphereShape {
   vec4 inverse_inertia, inverse_inertia_mixed;  // 1/m2
   vec4 origin;       // origin of the field's grid; w: edge length of a cell (m)
   vec4 field;        // 1 / cell, padding, and the radius if the part is a ball
-  uvec4 grid;        // numbers of values along x, y, z; index of the first value
+  uvec4 grid;        // numbers of values along x, y, z; index of the first element of its grid in Fields (shape_table.cpp)
 };
 
 struct SphereNode {

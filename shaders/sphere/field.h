@@ -11,7 +11,7 @@ struct Field {
 Field field_of(uint shape) {
   SphereShape s = shapes[shape];
   return Field(s.origin.xyz, vec3(s.grid.xyz) - 1.001, s.origin.w, s.field.x, s.field.y, s.field.z, s.grid.x,
-               s.grid.x * s.grid.y, s.grid.w);
+               s.grid.x * (s.grid.y - 1u), s.grid.w);
 }
 
 // m: no path within the part is longer.
@@ -24,10 +24,10 @@ Cell cell_at(Field f, vec3 point) {
   vec3 x = clamp(g, vec3(0.0), f.most);  // also of NaN: reads stay inside
   uvec3 i = min(uvec3(x), uvec3(f.most));
   vec3 t = x - vec3(i), beyond = g - x;
-  uint p = f.first + i.x + i.y * f.row + i.z * f.slice, q = p + f.slice;
+  uint at = f.first + i.x + i.y * f.row + i.z * f.slice;
+  vec4 low = fields[at], high = fields[at + 1u];
   float outside2 = dot(beyond, beyond);
-  return Cell(fields[p], fields[p + 1u], fields[p + f.row], fields[p + f.row + 1u],
-              fields[q], fields[q + 1u], fields[q + f.row], fields[q + f.row + 1u],
+  return Cell(low.x, high.x, low.y, high.y, low.z, high.z, low.w, high.w,
               t.x, t.y, t.z, outside2 > 1e-4 ? sqrt(outside2) * f.cell : 0.0);
 }
 
