@@ -59,7 +59,7 @@
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // largest number of clusters of a part at one resolution
-#define SPHERE_CHAINS 14            // a job's candidates form so many linked lists, each of which one invocation reads
+#define SPHERE_CHAINS 8             // a job's candidates form so many linked lists, each of which one invocation reads
 
 #define SPHERE_NO_COLOR 0xffffffffu  // color of a pair without contacts to solve
 
@@ -387,7 +387,7 @@ static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof
 static_assert(sizeof(SphereNode) == 16 && sizeof(SphereBox) == 32, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
-static_assert(sizeof(SphereSample) == 8 && sizeof(SphereTouch) == 48 && sizeof(SphereJob) == 64, "std430");
+static_assert(sizeof(SphereSample) == 8 && sizeof(SphereTouch) == 48 && sizeof(SphereJob) == 40, "std430");
 static_assert(sizeof(SphereOrdered) == 32, "std430");
 static_assert(sizeof(SphereStatus) == 80, "std430");
 }  // namespace bin_scenes::gpu
