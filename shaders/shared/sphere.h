@@ -61,6 +61,12 @@
 #define SPHERE_MAX_CLUSTERS 1024    // largest number of clusters of a part at one resolution
 #define SPHERE_CHAINS 8             // a job's candidates form so many linked lists, each of which one invocation reads
 
+#define SPHERE_SAMPLE_KINDS 4u      // kinds of samples that wait apart, so that neighbours do the same work
+#define SPHERE_SAMPLE_DESCENDS 0u   // an edge whose deepest point is between its ends
+#define SPHERE_SAMPLE_CROSSES 1u    // another edge
+#define SPHERE_SAMPLE_SLIDES 2u     // a node of a curved face
+#define SPHERE_SAMPLE_RESTS 3u      // another node
+
 #define SPHERE_NO_COLOR 0xffffffffu  // color of a pair without contacts to solve
 
 #define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // index of the ground of a world, after all bodies
@@ -370,7 +376,9 @@ struct SphereCandidate {
 
 struct SphereStatus {  // stored before the list of jobs
   uint jobs, samples, candidates;  // counts; those of samples and candidates may exceed the capacity
-  uint next_job, next_choice, touches, unused0, unused1;
+  uint next_job, next_choice, touches;
+  uint sample_blocks, unused;        // sample_blocks: groups that test samples of one kind each
+  uint sample_kinds[SPHERE_SAMPLE_KINDS];  // counts of each kind (sphere/sample_kinds.h)
   uvec4 groups, sample_groups, touch_groups;  // arguments of indirect dispatches over jobs, samples and touches
 };
 
@@ -389,7 +397,7 @@ static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
 static_assert(sizeof(SphereSample) == 8 && sizeof(SphereTouch) == 48 && sizeof(SphereJob) == 40, "std430");
 static_assert(sizeof(SphereOrdered) == 32, "std430");
-static_assert(sizeof(SphereStatus) == 80, "std430");
+static_assert(sizeof(SphereStatus) == 96, "std430");
 }  // namespace bin_scenes::gpu
 #endif
 #endif

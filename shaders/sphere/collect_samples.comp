@@ -25,10 +25,11 @@ layout(std430, binding = BIND_SAMPLES) writeonly buffer NearSamples { SphereSamp
 
 #include "sphere/sample_view.h"
 #include "shared/sphere/rim.h"
+#include "sphere/sample_kinds.h"
 
 const uint LEAST_JOBS = 4u, MOST_JOBS = min(SPHERE_PAIR_GROUP / 2u, SPHERE_GROUP_JOBS);  // at a time
 const uint AT_ONCE = SPHERE_PAIR_GROUP / SPHERE_CLUSTER;                                 // clusters
-const uint MOST_NEAR = 256u, MOST_WAITING = 2u * SPHERE_PAIR_GROUP;                         // room in lists
+const uint MOST_NEAR = 256u, MOST_WAITING = 2u * SPHERE_PAIR_GROUP, MOST_FOUND = 256u;                         // room in lists
 
 // The samples of one body of a job against the field of the other: what this pass needs of a View.
 struct Side {
@@ -54,6 +55,9 @@ shared vec4 node_point[SPHERE_PAIR_GROUP], node_gradient[SPHERE_PAIR_GROUP];  //
 shared uvec2 waiting[MOST_WAITING];
 shared vec4 waiting_point[MOST_WAITING], waiting_gradient[MOST_WAITING];
 shared uint waiting_count;
+
+shared uvec2 found[MOST_FOUND];  // samples: side << 16 | kind; feature
+shared uint found_count;
 
 View view_at(uint s) {
   Side side = sides[s];
@@ -101,8 +105,8 @@ void hold_side(uint s, uint of_job) {
   count_possible(own.nodes.y);
 }
 
-// Has the sample wait for test_samples.
-void collect(uint s, uint feature) {
+// Has a sample wait for test_samples.
+void pass_on(uint s, uint feature, uint kind) {
   uint of = sides[s].grid.w, at = atomicAdd(status.samples, 1u);
   if (at >= settings.samples) {
     uint of_job = of & ~SPHERE_SIDE_B, world = bodies[pairs[jobs[of_job].pair].a].ids.y;
@@ -111,17 +115,27 @@ void collect(uint s, uint feature) {
     jobs[of_job].incomplete = 1u;
     return;
   }
-  samples[at] = SphereSample(of & ~SPHERE_SIDE_B, feature | of & SPHERE_SIDE_B);
-  if (at % SPHERE_PAIR_GROUP != 0u) return;
-  uvec3 groups = folded_groups(at / SPHERE_PAIR_GROUP + 1u);
+  uint of_kind = atomicAdd(status.sample_kinds[kind], 1u);
+  samples[place_of_sample(kind, of_kind)] = SphereSample(of & ~SPHERE_SIDE_B, feature | of & SPHERE_SIDE_B);
+  if (of_kind % SPHERE_PAIR_GROUP != 0u) return;
+  uvec3 groups = folded_groups(1u + atomicAdd(status.sample_blocks, 1u));
   atomicMax(status.sample_groups.x, groups.x);
   atomicMax(status.sample_groups.y, groups.y);
+}
+
+void collect(uint s, uint feature, uint kind) {
+  uint at = atomicAdd(found_count, 1u);
+  if (at < MOST_FOUND)
+    found[at] = uvec2(s << 16 | kind, feature);
+  else
+    pass_on(s, feature, kind);
 }
 
 // All invocations, SPHERE_CLUSTER for each of AT_ONCE sides: lists clusters nearby, from cluster c of side s on. Ends
 // early if the list is full.
 void list_clusters(uint count, inout uint s, inout uint c) {
   for (; s < count; s += AT_ONCE) {
+    if (sides[s].clusters == 0u) continue;
     View view = view_at(s);
     float slack = view.margin + radius_of(view.samples) + sag_of(view.samples) + error_of(view.field);
     for (; c < view.samples.clusters.y; c += SPHERE_CLUSTER) {
@@ -145,10 +159,10 @@ void test_waiting(uint at) {
   vec3 gradient = waiting_gradient[at].xyz;
   Touch q = touch_of(view, edge.b);
   vec3 along = q.point - point.xyz;
-  if (edge_may_touch(view, edge, point.w, q.distance) &&
-      (dot(gradient, along) < 0.0 && dot(q.gradient, along) > 0.0 || may_cross(view, edge, point.w) ||
-       may_cross(view, edge, q.distance)))
-    collect(s, e | SPHERE_EDGE);
+  if (!edge_may_touch(view, edge, point.w, q.distance)) return;
+  bool descends = dot(gradient, along) < 0.0 && dot(q.gradient, along) > 0.0;
+  if (descends || may_cross(view, edge, point.w) || may_cross(view, edge, q.distance))
+    collect(s, e | SPHERE_EDGE, descends ? SPHERE_SAMPLE_DESCENDS : SPHERE_SAMPLE_CROSSES);
 }
 
 // Lists edges with a first end, at `first_end`, that is near enough, from edge e on. Ends early if the list is full.
@@ -177,7 +191,10 @@ void collect_from(uint from, uint count, bool last) {
     Touch touch = touch_of(view, node);
     node_point[thread] = vec4(touch.point, touch.distance);
     node_gradient[thread] = vec4(touch.gradient, 0.0);
-    if (node_may_touch(view, touch.distance)) collect(s, node);
+    if (node_may_touch(view, touch.distance)) {
+      bool slides = bounds_of(cone_at(view.samples, node)) == SPHERE_AXIS;
+      collect(s, node, slides ? SPHERE_SAMPLE_SLIDES : SPHERE_SAMPLE_RESTS);
+    }
   }
   barrier();
   uint e = range.x + lane, waits;
@@ -198,17 +215,19 @@ void collect_from(uint from, uint count, bool last) {
 // All invocations: the samples of the sides at hand that are near the other body, and worth testing. Each kind of work
 // waits until there is some for all invocations.
 void collect_samples(uint count) {
-  uint thread = gl_LocalInvocationIndex, s = thread / SPHERE_CLUSTER, c = thread % SPHERE_CLUSTER, found;
+  uint thread = gl_LocalInvocationIndex, s = thread / SPHERE_CLUSTER, c = thread % SPHERE_CLUSTER, nearby;
   do {
     list_clusters(count, s, c);
     barrier();
-    found = near_count;
-    uint near = min(found, MOST_NEAR);
+    nearby = near_count;
+    uint near = min(nearby, MOST_NEAR);
     for (uint k = 0u; k < near; k += AT_ONCE) collect_from(k, near, k + AT_ONCE >= near);
     barrier();
     if (thread == 0u) near_count = 0u;
     barrier();
-  } while (found > MOST_NEAR);
+  } while (nearby > MOST_NEAR);
+  for (uint i = thread; i < min(found_count, MOST_FOUND); i += SPHERE_PAIR_GROUP)
+    pass_on(found[i].x >> 16, found[i].y, found[i].x & 0xffffu);
 }
 
 bool within_walls(SphereWorld world, vec3 p, float margin) {
@@ -282,7 +301,7 @@ void main() {
   for (uint n = 0u; n < SPHERE_GROUP_JOBS; n += at_once) {
     if (thread == 0u) {
       first_job = atomicAdd(status.next_job, at_once);
-      near_count = waiting_count = 0u;
+      near_count = waiting_count = found_count = 0u;
     }
     barrier();
     uint first = first_job;
