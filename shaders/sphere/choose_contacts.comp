@@ -64,7 +64,8 @@ void choose_for(uint k) {
 }
 
 void main() {
-  uint thread = gl_LocalInvocationIndex, at_once = clamp(status.jobs / settings.contact_groups, LEAST_JOBS, SPHERE_GROUP_JOBS);
+  uint thread = gl_LocalInvocationIndex;
+  uint at_once = clamp(status.jobs / settings.contact_groups, LEAST_JOBS, SPHERE_GROUP_JOBS);
   join_team();
   if (thread == 0u) goes_on[0] = goes_on[1] = 0u;
   for (uint n = 0u; n < SPHERE_GROUP_JOBS; n += at_once) {

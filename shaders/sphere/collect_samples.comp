@@ -28,8 +28,8 @@ layout(std430, binding = BIND_SAMPLES) writeonly buffer NearSamples { SphereSamp
 #include "sphere/sample_kinds.h"
 
 const uint LEAST_JOBS = 4u, MOST_JOBS = min(SPHERE_PAIR_GROUP / 2u, SPHERE_GROUP_JOBS);  // at a time
-const uint AT_ONCE = SPHERE_PAIR_GROUP / SPHERE_CLUSTER;                                 // clusters
-const uint MOST_NEAR = 256u, MOST_WAITING = 2u * SPHERE_PAIR_GROUP, MOST_FOUND = 256u;                         // room in lists
+const uint AT_ONCE = SPHERE_PAIR_GROUP / SPHERE_CLUSTER;                                 // clusters at a time
+const uint MOST_NEAR = 256u, MOST_WAITING = 2u * SPHERE_PAIR_GROUP, MOST_FOUND = 256u;   // room in lists
 
 // The samples of one body of a job against the field of the other: what this pass needs of a View.
 struct Side {
@@ -44,8 +44,8 @@ struct Side {
 };
 
 shared uint first_job;
-shared Side sides[2u * MOST_JOBS];  // two of each job at hand
-shared uint nodes_near[2u * MOST_JOBS];  // nodes of the clusters nearby
+shared Side sides[2u * MOST_JOBS];                 // two of each job at hand
+shared uint nodes_near[2u * MOST_JOBS];            // nodes of the clusters nearby
 shared uint near_clusters[MOST_NEAR], near_count;  // side << 16 | cluster
 
 // Nodes of the clusters at hand, one an invocation: edges that start there read them.
@@ -123,6 +123,7 @@ void pass_on(uint s, uint feature, uint kind) {
   atomicMax(status.sample_groups.y, groups.y);
 }
 
+// The same, later.
 void collect(uint s, uint feature, uint kind) {
   uint at = atomicAdd(found_count, 1u);
   if (at < MOST_FOUND)
@@ -196,9 +197,9 @@ void collect_from(uint from, uint count, bool last) {
       collect(s, node, slides ? SPHERE_SAMPLE_SLIDES : SPHERE_SAMPLE_RESTS);
     }
   }
-  barrier();
-  uint e = range.x + lane, waits;
-  do {
+  uint e = range.x + lane, waits = MOST_WAITING + 1u;
+  while (waits > MOST_WAITING) {
+    barrier();
     list_edges(view, s, thread - node, range.y, e);
     barrier();
     waits = waiting_count;
@@ -208,24 +209,23 @@ void collect_from(uint from, uint count, bool last) {
       if (thread < left) test_waiting(left - 1u - thread);
     barrier();
     if (thread == 0u) waiting_count = left;
-    barrier();
-  } while (waits > MOST_WAITING);
+  }
 }
 
 // All invocations: the samples of the sides at hand that are near the other body, and worth testing. Each kind of work
 // waits until there is some for all invocations.
 void collect_samples(uint count) {
-  uint thread = gl_LocalInvocationIndex, s = thread / SPHERE_CLUSTER, c = thread % SPHERE_CLUSTER, nearby;
-  do {
+  uint thread = gl_LocalInvocationIndex, s = thread / SPHERE_CLUSTER, c = thread % SPHERE_CLUSTER;
+  uint nearby = MOST_NEAR + 1u;
+  while (nearby > MOST_NEAR) {
+    barrier();
     list_clusters(count, s, c);
     barrier();
     nearby = near_count;
     uint near = min(nearby, MOST_NEAR);
     for (uint k = 0u; k < near; k += AT_ONCE) collect_from(k, near, k + AT_ONCE >= near);
-    barrier();
-    if (thread == 0u) near_count = 0u;
-    barrier();
-  } while (nearby > MOST_NEAR);
+    if (thread == 0u && nearby > MOST_NEAR) near_count = 0u;
+  }
   for (uint i = thread; i < min(found_count, MOST_FOUND); i += SPHERE_PAIR_GROUP)
     pass_on(found[i].x >> 16, found[i].y, found[i].x & 0xffffu);
 }
@@ -308,7 +308,6 @@ void main() {
     if (first >= status.jobs) break;
     uint count = min(at_once, status.jobs - first);
     if (thread < 2u * count) hold_side(thread, first + thread / 2u);
-    barrier();
     collect_samples(2u * count);
     if (thread < 2u * count && nodes_near[thread] > 0u)
       atomicAdd(progress[bodies[pairs[jobs[first + thread / 2u].pair].a].ids.y].nodes_tested, nodes_near[thread]);
