@@ -11,7 +11,7 @@ struct Field {
 Field field_of(uint shape) {
   SphereShape s = shapes[shape];
   return Field(s.origin.xyz, vec3(s.grid.xyz) - 1.001, s.origin.w, s.field.x, s.field.y, s.field.z, s.grid.x,
-               s.grid.x * (s.grid.y - 1u), s.grid.w);
+               s.grid.x * s.grid.y, s.grid.w);
 }
 
 // m: no path within the part is longer.
@@ -25,9 +25,9 @@ Cell cell_at(Field f, vec3 point) {
   uvec3 i = min(uvec3(x), uvec3(f.most));
   vec3 t = x - vec3(i), beyond = g - x;
   uint at = f.first + i.x + i.y * f.row + i.z * f.slice;
-  vec4 low = fields[at], high = fields[at + 1u];
+  vec2 p = fields[at], q = fields[at + 1u], r = fields[at + f.row], s = fields[at + f.row + 1u];
   float outside2 = dot(beyond, beyond);
-  return Cell(low.x, high.x, low.y, high.y, low.z, high.z, low.w, high.w,
+  return Cell(p.x, q.x, r.x, s.x, p.y, q.y, r.y, s.y,
               t.x, t.y, t.z, outside2 > 1e-4 ? sqrt(outside2) * f.cell : 0.0);
 }
 
