@@ -59,7 +59,13 @@
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // largest number of clusters of a part at one resolution
-#define SPHERE_CHAINS 14            // a job's candidates form so many linked lists, each of which one invocation reads
+#define SPHERE_CHAINS 8             // a job's candidates form so many linked lists, each of which one invocation reads
+
+#define SPHERE_SAMPLE_KINDS 4u      // kinds of samples that wait apart, so that neighbours do the same work
+#define SPHERE_SAMPLE_DESCENDS 0u   // an edge whose deepest point is between its ends
+#define SPHERE_SAMPLE_CROSSES 1u    // another edge
+#define SPHERE_SAMPLE_SLIDES 2u     // a node of a curved face
+#define SPHERE_SAMPLE_RESTS 3u      // another node
 
 #define SPHERE_NO_COLOR 0xffffffffu  // color of a pair without contacts to solve
 
@@ -274,7 +280,7 @@ struct SphereShape {
   vec4 inverse_inertia, inverse_inertia_mixed;  // 1/m2
   vec4 origin;       // origin of the field's grid; w: edge length of a cell (m)
   vec4 field;        // 1 / cell, padding, and the radius if the part is a ball
-  uvec4 grid;        // numbers of values along x, y, z; index of the first value
+  uvec4 grid;        // numbers of values along x, y, z; index of the first element of its grid in Fields (shape_table.cpp)
 };
 
 struct SphereNode {
@@ -370,7 +376,9 @@ struct SphereCandidate {
 
 struct SphereStatus {  // stored before the list of jobs
   uint jobs, samples, candidates;  // counts; those of samples and candidates may exceed the capacity
-  uint next_job, next_choice, touches, unused0, unused1;
+  uint next_job, next_choice, touches;
+  uint sample_blocks, unused;        // sample_blocks: groups that test samples of one kind each
+  uint sample_kinds[SPHERE_SAMPLE_KINDS];  // counts of each kind (sphere/sample_kinds.h)
   uvec4 groups, sample_groups, touch_groups;  // arguments of indirect dispatches over jobs, samples and touches
 };
 
@@ -387,9 +395,9 @@ static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof
 static_assert(sizeof(SphereNode) == 16 && sizeof(SphereBox) == 32, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
-static_assert(sizeof(SphereSample) == 8 && sizeof(SphereTouch) == 48 && sizeof(SphereJob) == 64, "std430");
+static_assert(sizeof(SphereSample) == 8 && sizeof(SphereTouch) == 48 && sizeof(SphereJob) == 40, "std430");
 static_assert(sizeof(SphereOrdered) == 32, "std430");
-static_assert(sizeof(SphereStatus) == 80, "std430");
+static_assert(sizeof(SphereStatus) == 96, "std430");
 }  // namespace bin_scenes::gpu
 #endif
 #endif

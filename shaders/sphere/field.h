@@ -24,10 +24,10 @@ Cell cell_at(Field f, vec3 point) {
   vec3 x = clamp(g, vec3(0.0), f.most);  // also of NaN: reads stay inside
   uvec3 i = min(uvec3(x), uvec3(f.most));
   vec3 t = x - vec3(i), beyond = g - x;
-  uint p = f.first + i.x + i.y * f.row + i.z * f.slice, q = p + f.slice;
+  uint at = f.first + i.x + i.y * f.row + i.z * f.slice;
+  vec2 p = fields[at], q = fields[at + 1u], r = fields[at + f.row], s = fields[at + f.row + 1u];
   float outside2 = dot(beyond, beyond);
-  return Cell(fields[p], fields[p + 1u], fields[p + f.row], fields[p + f.row + 1u],
-              fields[q], fields[q + 1u], fields[q + f.row], fields[q + f.row + 1u],
+  return Cell(p.x, q.x, r.x, s.x, p.y, q.y, r.y, s.y,
               t.x, t.y, t.z, outside2 > 1e-4 ? sqrt(outside2) * f.cell : 0.0);
 }
 

@@ -13,7 +13,7 @@ layout(std430, binding = BIND_STATES) readonly buffer States { SphereState state
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_NODES) readonly buffer Nodes { SphereNode nodes[]; };
 layout(std430, binding = BIND_EDGES) readonly buffer Edges { uvec4 edges[]; };
-layout(std430, binding = BIND_FIELDS) readonly buffer Fields { float fields[]; };
+layout(std430, binding = BIND_FIELDS) readonly buffer Fields { vec2 fields[]; };
 layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob jobs[]; };
 layout(std430, binding = BIND_CANDIDATES) buffer Candidates { SphereCandidate candidates[]; };
@@ -21,6 +21,7 @@ layout(std430, binding = BIND_SAMPLES) readonly buffer NearSamples { SphereSampl
 layout(std430, binding = BIND_TOUCHES) writeonly buffer Touches { SphereTouch touches[]; };
 
 #include "sphere/sample_view.h"
+#include "sphere/sample_kinds.h"
 
 // There are no more touches than samples, and room for as many.
 void put(View view, Touch touch, uint feature) {
@@ -52,8 +53,11 @@ void test_sample(View view, uint feature) {
 }
 
 void main() {
-  uint at = thread_index();
-  if (at >= min(status.samples, settings.samples)) return;
+  uint block = group_index(), kind = 0u;
+  while (kind < SPHERE_SAMPLE_KINDS && block >= blocks_of_kind(kind)) block -= blocks_of_kind(kind++);
+  uint of_kind = block * SPHERE_PAIR_GROUP + gl_LocalInvocationIndex;
+  if (kind == SPHERE_SAMPLE_KINDS || of_kind >= status.sample_kinds[kind]) return;
+  uint at = place_of_sample(kind, of_kind);
   job = samples[at].job;
   SpherePair pair = pairs[jobs[job].pair];
   take_world_of(pair);

@@ -140,16 +140,18 @@ void Batch::make_room() {
   at_least(impulses_, row_arena_.size() * SPHERE_ROW_PARTS);
   if (jobs_.size() < status_words + job_words * pairs) {
     at_least(jobs_, status_words + job_words * pairs);
-    const gpu::SphereStatus none{0, 0, 0, 0, 0, 0, 0, 0, {0, 1, 1, 0}, {0, 1, 1, 0}, {0, 1, 1, 0}};
+    gpu::SphereStatus none{};
+    none.groups = none.sample_groups = none.touch_groups = {0, 1, 1, 0};
     jobs_.storage().write(0, &none, sizeof none);
   }
   const auto room = [&](std::size_t least) {
     return std::max<std::size_t>(1, std::min(std::max(least, capacity_.candidates * pairs), most_candidates()));
   };
-  near_samples_.grow(room(least_samples_));
-  touches_.grow(near_samples_.size());
+  const std::size_t samples = room(least_samples_);
+  near_samples_.grow(samples * SPHERE_SAMPLE_KINDS / 2);
+  touches_.grow(samples);
   candidate_list_.grow(room(least_candidates_));
-  settings_block_.samples = static_cast<gpu::uint>(near_samples_.size());
+  settings_block_.samples = static_cast<gpu::uint>(samples);
   settings_block_.candidates = static_cast<gpu::uint>(candidate_list_.size());
   bound_ = false;
 }

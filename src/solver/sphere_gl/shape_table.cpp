@@ -39,6 +39,17 @@ std::vector<gpu::uvec4> packed(const std::vector<std::uint32_t>& words) {
   return out;
 }
 
+/// For each node of the grid but those of the last layer: its value and that of its neighbour along z. The eight values
+/// around a point are then two pieces of 16 bytes.
+std::vector<gpu::vec2> field_pairs(const sphere::Field& field) {
+  std::vector<gpu::vec2> pairs;
+  if (!field.values) return pairs;
+  const std::size_t layer = std::size_t(field.nx) * field.ny, count = layer * (field.nz - 1);
+  pairs.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) pairs.push_back({field.values[i], field.values[i + layer]});
+  return pairs;
+}
+
 gpu::vec4 diagonal(const sphere::Mat3f& m) {
   return {m(0, 0), m(1, 1), m(2, 2), 0};
 }
@@ -96,9 +107,9 @@ std::uint32_t ShapeTable::index_of(const sphere::Shape& shape) {
   out.inverse_inertia_mixed = mixed(inverse);
   out.origin = vec4(field.origin, field.cell);
   out.field = {field.inverse_cell, field.padding, field.ball, 0};
-  const std::size_t values = field.values ? std::size_t(field.nx) * field.ny * field.nz : 0;
+  const std::vector<gpu::vec2> values = field_pairs(field);
   out.grid = {static_cast<gpu::uint>(field.nx), static_cast<gpu::uint>(field.ny), static_cast<gpu::uint>(field.nz),
-              append(fields_, value_count_, field.values, values)};
+              append(fields_, field_pair_count_, values.data(), values.size())};
   std::size_t count = known_.size();
   return known_[&shape] = append(shapes_, count, &out, 1);
 }

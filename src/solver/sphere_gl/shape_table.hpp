@@ -22,12 +22,12 @@ class ShapeTable {
   gpu::SphereSamples add(const sphere::Samples& samples);
 
   std::map<const sphere::Shape*, std::uint32_t> known_;
-  std::size_t node_count_ = 0, edge_count_ = 0, cluster_count_ = 0, value_count_ = 0;
+  std::size_t node_count_ = 0, edge_count_ = 0, cluster_count_ = 0, field_pair_count_ = 0;
   gl::Buffer<gpu::SphereShape> shapes_{"sphere.shapes"};
   gl::Buffer<gpu::SphereNode> nodes_{"sphere.nodes"};
   gl::Buffer<gpu::uvec4> edges_{"sphere.edges"};
   gl::Buffer<gpu::SphereCluster> clusters_{"sphere.clusters"};
-  gl::Buffer<float> fields_{"sphere.fields"};
+  gl::Buffer<gpu::vec2> fields_{"sphere.fields"};
 };
 
 }  // namespace bin_scenes::sphere_gl
