@@ -22,7 +22,7 @@ if(BIN_SCENES_PYTHON)
 endif()
 add_message_files(FILES
   Bin.msg Counter.msg Drift.msg Energy.msg ErrorCode.msg Flag.msg Motion.msg PartLine.msg Penetration.msg Quantiles.msg Scene.msg
-  ScenePart.msg SceneReport.msg SceneRequest.msg Sensor.msg StageTime.msg Surface.msg Worst.msg)
+  ScenePart.msg SceneReport.msg SceneRequest.msg Sensor.msg StageTime.msg Surface.msg Table.msg Worst.msg)
 add_service_files(FILES AddParts.srv GenerateScene.srv GetGrasps.srv PickPart.srv)
 add_action_files(FILES GenerateScene.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)

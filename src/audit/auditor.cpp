@@ -135,7 +135,27 @@ Auditor::Placed Auditor::place(const BopView& view, const AuditBin& bin) const {
     request.parts.push_back(line);
     placed.loaded.parts.push_back(model);
   }
+  add_others(bin, placed);
   return placed;
+}
+
+/// Parts without an entry carry and hide others, and are not judged.
+void Auditor::add_others(const AuditBin& bin, Placed& placed) const {
+  for (const AuditBin::Other& other : bin.others) {
+    ScenePart part;
+    part.id = static_cast<int>(placed.scene.parts.size());
+    part.line = placed.loaded.parts.size();
+    part.model = other.line.model;
+    part.pose = placed.shift * other.in_world;
+    part.state = PartState::fixed;
+    PartLine line = other.line;
+    line.count = 1;
+    line.fixed = true;
+    line.poses = {part.pose};
+    placed.scene.parts.push_back(part);
+    placed.loaded.parts.push_back(PartModel::load(line.path, load_options(line)));
+    placed.loaded.request.parts.push_back(line);
+  }
 }
 
 void Auditor::audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& figures) {
@@ -145,6 +165,7 @@ void Auditor::audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& fi
   if (first.parts.empty()) return;
   Placed placed = place(first, bin);
   for (ScenePart& part : placed.scene.parts) {
+    if (part.state == PartState::fixed) continue;
     const Vec3 center = part.pose * placed.loaded.parts[part.line]->mass().center;
     const bool beside =
         bin.inner_size && (center.head<2>().array().abs() > 0.5 * bin.inner_size->head<2>().array()).any();
@@ -155,12 +176,16 @@ void Auditor::audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& fi
   audit_quality(placed, figures);
   audit_drift(placed, figures);
   Surroundings around{placed.loaded.request.bin, placed.shift};
+  const std::size_t own = placed.entry.size();
+  for (std::size_t i = 0; i < bin.others.size(); ++i)
+    around.others.push_back({placed.loaded.parts[placed.scene.parts[own + i].line], bin.others[i].in_world});
   if (bin.fitted) around.bin.kind = Bin::Kind::none;  // walls that nobody stated must not hide parts
   for (const BopView* view : heap.views) around_[static_cast<std::size_t>(view - set_.views.data())] = around;
 }
 
 void Auditor::audit_quality(const Placed& placed, AuditFigures& figures) const {
   for (const PartQuality& part : part_quality(placed.scene, placed.loaded)) {
+    if (static_cast<std::size_t>(part.id) >= placed.entry.size()) continue;
     const double diagonal = placed.loaded.parts[placed.scene.parts[static_cast<std::size_t>(part.id)].line]->diagonal();
     const AuditPlace place = placed.place(part.id);
     figures.overlap.add(100.0 * part.overlap_relative, place);
@@ -177,7 +202,7 @@ void Auditor::audit_drift(const Placed& placed, AuditFigures& figures) {
   heap.settle();
   const Scene after = heap.scene();
   for (const ScenePart& start : placed.scene.parts) {
-    if (start.state == PartState::escaped) continue;
+    if (start.state == PartState::escaped || start.state == PartState::fixed) continue;
     const ScenePart& end = after.parts.at(static_cast<std::size_t>(start.id));
     if (!end.pose.finite()) continue;
     const PartModel& model = *placed.loaded.parts[start.line];

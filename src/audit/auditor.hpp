@@ -71,6 +71,12 @@ std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures);
 
 /// The surroundings of the parts.
 struct AuditBin {
+  /// A part that is in the heap without being in the ground truth.
+  struct Other {
+    PartLine line;  ///< the model: `path`, and how it is read
+    Pose in_world;
+  };
+  std::vector<Other> others;
   std::optional<Vec3> inner_size;  ///< m; a box around the world's origin, with its floor at z = 0
   std::optional<double> floor;     ///< m; a table at this height
   bool fitted = false;  ///< a box as wide as the parts of each heap. None of all: a table where the lowest end
@@ -88,6 +94,7 @@ class Auditor {
  private:
   struct Placed;
   Placed place(const BopView& view, const AuditBin& bin) const;
+  void add_others(const AuditBin& bin, Placed& placed) const;
   void audit_quality(const Placed& placed, AuditFigures& figures) const;
   void audit_drift(const Placed& placed, AuditFigures& figures);
   void correct_camera(std::size_t number, const CameraError& error, const LabelAuditor& auditor,

@@ -148,6 +148,17 @@ LabelAuditor::Rendered LabelAuditor::render(const BopView& view, const Surroundi
     part.state = PartState::resting;
     scene.parts.push_back(part);
   }
+  for (const Surroundings::Other& other : around.others) {
+    ScenePart part;
+    part.id = static_cast<int>(scene.parts.size());
+    part.line = loaded.parts.size();
+    part.pose = around.shift * other.in_world;
+    part.state = PartState::fixed;
+    part.distractor = true;
+    scene.parts.push_back(part);
+    loaded.parts.push_back(other.model);
+    loaded.request.parts.emplace_back();
+  }
   scene.sensors = {resolved(sensor, around.bin, nullptr)};
   own.sensor = scene.sensors.front();
   own.image = rig_.render(scene, loaded).front();

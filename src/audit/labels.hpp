@@ -48,6 +48,11 @@ struct LabelledImage {
 struct Surroundings {
   Bin bin;
   Pose shift;  ///< from the set's world to the bin frame
+  struct Other {
+    PartModelPtr model;
+    Pose in_world;
+  };
+  std::vector<Other> others = {};  ///< parts without an entry in the ground truth
 };
 
 class LabelAuditor {

@@ -23,11 +23,12 @@ Json row_major(const Mat3& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
 }
 
-/// Parts that have a pose, each at the place of its id as far as ids go without a gap; the last ones fill the gaps.
+/// Parts that have a pose and are no distractors, each at the place of its id as far as ids go without a gap; the last
+/// ones fill the gaps.
 std::vector<const ScenePart*> in_places(const Scene& scene) {
   std::vector<const ScenePart*> there;
   for (const ScenePart& part : scene.parts) {
-    if (is_there(part.state) && part.pose.finite()) there.push_back(&part);
+    if (is_there(part.state) && part.pose.finite() && !part.distractor) there.push_back(&part);
   }
   std::vector<const ScenePart*> places(there.size(), nullptr), late;
   for (const ScenePart* part : there) {

@@ -229,7 +229,7 @@ void verify_image(const ImageFiles& image, const SceneFile& scene, const std::ma
   verify_pictures(image, findings);
   std::map<int, const ScenePart*> parts;
   for (const ScenePart& part : scene.parts)
-    if (part.pose.finite()) parts[part.id] = &part;
+    if (part.pose.finite() && !part.distractor) parts[part.id] = &part;
   std::set<int> listed;
   for (const StoredJson& entry : truth) listed.insert(entry.at("id").get<int>());
   bool all_there = truth.size() == parts.size() && info.size() == parts.size() && listed.size() == parts.size();

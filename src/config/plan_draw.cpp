@@ -55,7 +55,7 @@ void set_counts(Request& request, const config::Amount& amount, Random& random, 
   shares.resize(request.parts.size(), 0.0);
   double sum = 0.0;
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (request.parts[i].fixed)
+    if (request.parts[i].stays() || request.parts[i].distractor)
       shares[i] = 0.0, counts[i] = request.parts[i].count;
     else if (amount.shares.empty())
       shares[i] = 1.0;

@@ -34,6 +34,10 @@ void read_symmetries(const YAML::Node& given, PlanObject& object) {
 void PlanObjects::add(const Request& request, const Complain& complain) {
   digests += request.bin.mesh_sha256 + digests_of_pictures(request);
   for (const PartLine& line : request.parts) {
+    if (line.distractor) {
+      digests += line.sha256;
+      continue;
+    }
     const auto same = [&](const PlanObject& object) { return is_of(object, line); };
     if (std::any_of(all.begin(), all.end(), same)) continue;
     PlanObject object;

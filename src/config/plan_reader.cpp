@@ -309,12 +309,16 @@ class PlanFile {
                "amount.shares", "give one number for each part line");
   }
 
-  /// `amount` sets the counts of all lines but the fixed ones.
+  /// `amount` sets the counts of all lines but those of obstacles, distractors and parts on the table.
   bool set_by_amount(const std::string& path) const {
     const std::string line = path.substr(0, path.rfind('.'));
     if (path != line + ".count" || line.rfind("parts", 0) != 0) return false;
-    const YAML::Node fixed = own_value(state_->request, line + ".fixed");
-    return (state_->amount.parts || state_->amount.fill) && !(fixed && fixed.as<bool>());
+    const auto says = [&](const char* key) {
+      const YAML::Node value = own_value(state_->request, line + key);
+      return value && value.Scalar() != "false" && value.Scalar() != "0";
+    };
+    const bool keeps = says(".fixed") || says(".distractor") || says(".on_table");
+    return (state_->amount.parts || state_->amount.fill) && !keeps;
   }
 
   /// A draw that cannot be right is found here instead of after hours: each end is put into the request alone.

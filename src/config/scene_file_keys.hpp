@@ -89,7 +89,9 @@ void visit(Visitor& v, SceneSensor& scene) {
             projector);
   SceneDevice<Laser> laser{sensor.laser};
   v.section({"laser", "", "The laser, if the sensor model has one.", anything, uses(&SensorModel::laser)}, laser);
-  v.list({"truth", "", "What the camera truly sees of each part in the scene. It is present if an image was made."},
+  v.list({"truth", "",
+          "What the camera truly sees of each part in the scene that is no distractor. It is present if an image was "
+          "made."},
          scene.truth);
 }
 

@@ -243,6 +243,10 @@ void HeapMaker::set_apart(const Attempt& failed, std::size_t heap, std::size_t a
 std::vector<int> HeapMaker::object_ids(const Request& request) const {
   std::vector<int> ids;
   for (const PartLine& line : request.parts) {
+    if (line.distractor) {
+      ids.push_back(0);  // of no entry
+      continue;
+    }
     const auto object = std::find_if(plan_.objects.begin(), plan_.objects.end(),
                                      [&](const PlanObject& one) { return is_of(one, line); });
     if (object == plan_.objects.end())

@@ -149,9 +149,13 @@ void SceneStore::commit(const Generator::Result& result, const Request& request,
   const Scene& scene = result.scene;
   const bool accepted = scene.report.accepted;
   if (wants("bop") && models_written_.count(accepted) == 0) {
+    const LoadedRequest& loaded = generator.loaded();
+    std::vector<PartModelPtr> objects;
+    for (std::size_t line = 0; line < loaded.parts.size(); ++line)
+      if (!loaded.request.parts[line].distractor) objects.push_back(loaded.parts[line]);
     WholeFolders models;
     models.write(BopFolder{root(accepted) / "bop"}.models(),
-                 [&](const std::string& hidden) { write_bop_models(hidden, generator.loaded().parts); });
+                 [&](const std::string& hidden) { write_bop_models(hidden, objects); });
     models.commit();
     models_written_.insert(accepted);
   }

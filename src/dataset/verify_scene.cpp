@@ -31,7 +31,7 @@ void verify_parts(const SceneFile& scene, const std::string& where, Findings& fi
     if (!part.pose.finite()) continue;
     findings.expect(std::abs(part.pose.orientation.norm() - 1.0) < 1e-6, "part_turn", where,
                     part_name(part.id) + " has no unit quaternion");
-    if (scene.bin.kind == Bin::Kind::box && part.state != PartState::escaped) {
+    if (scene.bin.kind == Bin::Kind::box && part.state != PartState::escaped && part.state != PartState::fixed) {
       const Vec3 &size = scene.bin.inner_size, &p = part.pose.position;
       // A model's origin may lie beside the part; a part is smaller than the bin.
       const bool in =

@@ -241,7 +241,7 @@ std::vector<NewParts> Generator::new_parts(const Heap& heap, const std::vector<P
   for (const PartLine& line : lines) {
     Request alone = heap.request();
     alone.parts = {line};
-    alone.pour.pattern = line.poses.empty() || line.fixed ? Pour::Pattern::rain : Pour::Pattern::given;
+    alone.pour.pattern = line.poses.empty() || line.stays() ? Pour::Pattern::rain : Pour::Pattern::given;
     check(alone);
     all.parts.push_back(line);
   }

@@ -53,7 +53,7 @@ void check_models(const LoadedRequest& loaded) {
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const PartLine& line = request.parts[i];
-    if (line.fixed && line.unit) continue;  // a floor or a machine bed may well be larger than the bin
+    if (line.stays() && line.unit) continue;  // a floor or a machine bed may well be larger than the bin
     const LoadReport& file = parts[i]->load_report();
     const std::optional<Unit> stated = is_cad(file.format) ? std::optional<Unit>(file.unit) : line.unit;
     check_plausible_size(parts[i]->mesh(), request.bin, line.path, stated, bin ? &bin->mesh() : nullptr);

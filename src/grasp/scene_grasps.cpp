@@ -151,7 +151,7 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
   const std::vector<Gripper>& grippers = loaded.request.grippers;
   std::map<std::pair<std::size_t, std::size_t>, std::shared_ptr<const PartGrasps>> known;
   for (std::size_t line = 0; line < loaded.parts.size(); ++line) {
-    if (loaded.request.parts[line].fixed) continue;
+    if (loaded.request.parts[line].stays()) continue;
     for (std::size_t g = 0; g < grippers.size(); ++g) {
       const double friction = pair_friction(grippers[g].friction, loaded.request.parts[line].friction);
       const auto grasps = state_->grasps_of(*loaded.parts[line], grippers[g], friction);

@@ -48,9 +48,9 @@ double single(const Vec3& in, const Widths& w, int steps) {
 
 /// single() over roughness (square root of alpha) and the square root of the cosine, where it bends most, and its mean
 /// over the hemisphere.
-class Table {
+class ReflectanceTable {
  public:
-  Table() {
+  ReflectanceTable() {
     for (int r = 0; r <= roughnesses; ++r) {
       const double roughness = static_cast<double>(r) / roughnesses, alpha = std::max(roughness * roughness, 1e-3);
       for (int c = 0; c <= cosines; ++c) {
@@ -198,7 +198,7 @@ double brushed_lobe(const Surface& surface, const Vec3& in, const Vec3& out, dou
 }
 
 double facet_lobe(double alpha, double in, double out, double half, double once, double often) {
-  static const Table table;
+  static const ReflectanceTable table;
   const double a2 = alpha * alpha, bend = half * half * (a2 - 1.0) + 1.0, roughness = std::sqrt(alpha);
   const double facets = a2 / (M_PI * bend * bend);
   const double visible = 0.5 / (in * slant(out, a2) + out * slant(in, a2));

@@ -45,6 +45,7 @@ Surfaces softened(Surfaces surfaces, double soft) {
   };
   std::for_each(surfaces.lines.begin(), surfaces.lines.end(), soften);
   soften(surfaces.bin);
+  soften(surfaces.table.surface);
   return surfaces;
 }
 
@@ -183,7 +184,6 @@ void PathTracer::begin(Block& block, const Row& row, std::size_t first, std::siz
       scenery_.first_hits(&block.rays[i], &block.hits[i], 1);
   }
   if (!row.drawn) scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size());
-  lay_table(block.rays, block.hits);
 }
 
 /// Through a point of the aperture to where the ray through its centre meets the plane in focus (Cook, Porter,
@@ -200,23 +200,10 @@ Ray PathTracer::ray_of(const Row& row, std::size_t column, std::uint32_t sample)
   return {pose_ * start, turn_ * (ray - start / setup_.focus), setup_.near, setup_.far};
 }
 
-void PathTracer::lay_table(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
-  if (!setup_.table) return;
-  const Hit nothing = scenery_.hit({}, Scenery::no_face, 0.0);
-  for (std::size_t i = 0; i < rays.size(); ++i) setup_.table->cover(rays[i], nothing, hits[i]);
-}
-
-void PathTracer::find_hits(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
-  hits.resize(rays.size());
-  scenery_.first_hits(rays.data(), hits.data(), rays.size(), Scenery::Rays::scattered);
-  lay_table(rays, hits);
-}
-
 void PathTracer::find_blocked(const std::vector<Ray>& rays, std::vector<std::uint8_t>& blocked,
                               Scenery::Rays kind) const {
   blocked.resize(rays.size());
   scenery_.blocked(rays.data(), blocked.data(), rays.size(), kind);
-  for (std::size_t i = 0; setup_.table && i < rays.size(); ++i) blocked[i] |= setup_.table->blocks(rays[i]);
 }
 
 void PathTracer::add_seen(Block& block) const {
@@ -274,11 +261,6 @@ void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& 
 }
 
 const Surface& PathTracer::surface_of(const Vertex& vertex, int bounce, Surface& own) const {
-  if (vertex.line == Tabletop::line) {
-    own = setup_.table->surface(vertex.position);
-    if (bounce > 0) own.roughness = std::max(own.roughness, setup_.soft);
-    return own;
-  }
   return (bounce == 0 ? surfaces_ : soft_).at(vertex.line, vertex.label, vertex.position, own);
 }
 
@@ -355,7 +337,8 @@ void PathTracer::find_ends(Block& block, double times) const {
   find_blocked(block.outward_rays, block.blocked, Scenery::Rays::scattered);
   for (std::size_t i = 0; i < block.outward.size(); ++i)
     if (!block.blocked[i]) add(block.outward[i], block.outward_rays[i], infinite);
-  find_hits(block.rays, block.hits);
+  block.hits.resize(block.rays.size());
+  scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size(), Scenery::Rays::scattered);
   block.next.clear();
   for (std::size_t i = 0; i < block.followed.size(); ++i) {
     const Block::Followed& path = block.followed[i];

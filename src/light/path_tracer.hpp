@@ -18,7 +18,6 @@
 #include "light/illumination.hpp"
 #include "light/lamps.hpp"
 #include "light/lobe.hpp"
-#include "light/tabletop.hpp"
 #include "raster/spots.hpp"
 
 #include <array>
@@ -38,7 +37,6 @@ class PathTracer {
     double focus = 1.0;            ///< m, depth that is sharp
     double soft = 0.5;             ///< least roughness of mirrors from the second surface on
     const Bevels* bevels = nullptr;
-    const Tabletop* table = nullptr;
     enum class By { both, lamps, lobe } by = By::both;  ///< how lamps are found; tests compare these methods
   };
   PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
@@ -96,8 +94,6 @@ class PathTracer {
   void follow_lobes(Block& block, int bounce) const;
   void find_ends(Block& block, double times) const;
   Lamps::Met weight_of(bool mirrors) const;
-  void lay_table(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
-  void find_hits(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
   void find_blocked(const std::vector<Ray>& rays, std::vector<std::uint8_t>& blocked, Scenery::Rays kind) const;
   Ray ray_of(const Row& row, std::size_t column, std::uint32_t sample) const;
   void add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const;

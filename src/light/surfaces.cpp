@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/random.hpp"
 
+#include "light/tabletop.hpp"
 #include "light/wear.hpp"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ Surfaces surfaces_of(const Request& request) {
   Surfaces surfaces;
   for (const PartLine& line : request.parts) surfaces.lines.push_back(line.surface);
   surfaces.bin = request.bin.surface;
+  surfaces.table = request.table;
   return surfaces;
 }
 
@@ -43,7 +45,18 @@ Surfaces surfaces_of(const Scene& scene, const LoadedRequest& loaded) {
   const Random key(scene.seed, scene.index, Stream::sensor);
   for (std::size_t label = 0; label < surfaces.places.size(); ++label)
     surfaces.places[label].key = key.of_piece(label).next();
+  surfaces.table_key = key.of_piece(std::uint64_t{1} << 60).next();  // behind those of the labels
   return surfaces;
+}
+
+bool Surfaces::vary() const {
+  const auto worn = [](const Surface& surface) { return surface.texture.any(); };
+  return worn(bin) || std::any_of(lines.begin(), lines.end(), worn) ||
+         (table.height && (table.mottle > 0.0 || worn(table.surface)));
+}
+
+Surface Surfaces::table_at(const Vec3& point) const {
+  return table_surface(table, point, table_key);
 }
 
 Surface Surfaces::own_surface(const Surface& even, const Place& place, const Vec3& point) {

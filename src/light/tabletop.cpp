@@ -24,36 +24,15 @@ double patches(double x, double y, const Random& key) {
   return (1.0 - v) * upper + v * lower;
 }
 
-double distance_to_table(const Ray& ray, double height) {
-  return (height - ray.origin.z()) / ray.direction.z();
-}
-
 }  // namespace
 
-void Tabletop::cover(const Ray& ray, const Hit& nothing, Hit& hit) const {
-  const double distance = distance_to_table(ray, settings_.height);
-  if (!there() || !(distance >= ray.near && distance <= ray.far) || distance >= hit.distance) return;
-  hit = nothing;
-  hit.distance = distance;
-  hit.normal = ray.direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ());
-  hit.line = line;
-}
-
-bool Tabletop::blocks(const Ray& ray) const {
-  const double distance = distance_to_table(ray, settings_.height);
-  return there() && distance >= ray.near && distance <= ray.far;
-}
-
-Surface Tabletop::surface(const Vec3& point) const {
-  Surface surface;
-  surface.albedo = settings_.albedo;
-  surface.gloss = settings_.gloss;
-  surface.roughness = settings_.roughness;
-  if (settings_.mottle <= 0.0) return surface;
-  double sum = 0.0, weight = 0.57, size = settings_.patch;  // weights of four octaves, with a sum below 1.1
+Surface table_surface(const Table& table, const Vec3& point, std::uint64_t key) {
+  Surface surface = table.surface;
+  if (table.mottle <= 0.0) return surface;
+  double sum = 0.0, weight = 0.57, size = table.patch;  // weights of four octaves, with a sum below 1.1
   for (std::uint64_t octave = 0; octave < 4; ++octave, weight *= 0.5, size *= 0.37)
-    sum += weight * patches(point.x() / size, point.y() / size, Random(key_, octave, Stream::sensor));
-  surface.albedo = std::clamp(surface.albedo * (1.0 + settings_.mottle * std::clamp(sum, -1.0, 1.0)), 0.0, 1.0);
+    sum += weight * patches(point.x() / size, point.y() / size, Random(key, octave, Stream::sensor));
+  surface.albedo = std::clamp(surface.albedo * (1.0 + table.mottle * std::clamp(sum, -1.0, 1.0)), 0.0, 1.0);
   return surface;
 }
 

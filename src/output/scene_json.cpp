@@ -19,7 +19,7 @@ std::vector<PartTruth> truth_of(const Scene& scene, const RangeImage& image, con
       if (image.label[i] != 0 && image.label[i] == image.seen_label()[i]) ++measured.at(image.label[i] - 1u);
   std::vector<PartTruth> truth;
   for (const ScenePart& part : scene.parts) {
-    if (!is_there(part.state) || !part.pose.finite()) continue;
+    if (!is_there(part.state) || !part.pose.finite() || part.distractor) continue;
     const auto id = static_cast<std::size_t>(part.id);
     const PixelBox whole = projected_box(models.at(part.line)->mesh(), bin_in_device * part.pose, device);
     const double all = static_cast<double>(image.total.at(id));

@@ -20,7 +20,7 @@ void append(Json& row, const Vec3& v) {
 double lightest_weight(const LoadedRequest& loaded) {
   double mass = std::numeric_limits<double>::infinity();
   for (std::size_t line = 0; line < loaded.parts.size(); ++line)
-    if (!loaded.request.parts[line].fixed)
+    if (!loaded.request.parts[line].stays())
       mass = std::min(mass, mass_of(loaded.request.parts[line], *loaded.parts[line]));
   const double weight = mass * loaded.request.gravity.norm();
   return std::isfinite(weight) && weight > 0.0 ? weight : 1.0;

@@ -65,6 +65,10 @@ Mesh find_model(const SceneModel& model, const Bin& bin, const std::string& fold
   return mesh;
 }
 
+std::string find_model_file(const SceneModel& model, const std::string& folder, const std::string& models) {
+  return find_file(model.model, model.sha256, folder, models).path;
+}
+
 Mesh find_bin(const Bin& bin, const std::string& folder, const std::string& models) {
   LoadOptions options;
   options.unit = bin.unit;

@@ -15,6 +15,8 @@ namespace bin_scenes {
 /// the scene, above it, and in folders called models there. Throws an input Error if no file has the digest.
 /// @param bin  of scene.json; decides what size of a part without a unit is plausible
 Mesh find_model(const SceneModel& model, const Bin& bin, const std::string& folder, const std::string& models);
+/// Returns the path of that file.
+std::string find_model_file(const SceneModel& model, const std::string& folder, const std::string& models);
 /// Finds the mesh of a bin.
 Mesh find_bin(const Bin& bin, const std::string& folder, const std::string& models);
 

@@ -35,18 +35,38 @@ void HeapCore::start_given(std::size_t first) {
     stop_if_cancelled();
     const PartLine& line = plan_->request.parts[plan_->line_of[b]];
     if (line.poses.empty()) {
-      waiting_.push_back(b);
+      if (line.on_table > 0.0)
+        lay_on_table(b);
+      else
+        waiting_.push_back(b);
       continue;
     }
     BodyState state{line.poses[plan_->copy_of[b]], {}};
-    if (!line.velocities.empty() && !line.fixed) state.velocity = line.velocities[plan_->copy_of[b]];
-    if (!line.fixed && outside(state.pose * part(b).mass().center)) {
+    if (!line.velocities.empty() && !line.stays()) state.velocity = line.velocities[plan_->copy_of[b]];
+    if (!line.stays() && outside(state.pose * part(b).mass().center)) {
       states_[b] = state;  // the walls would push it further out
       place_[b] = Place::escaped;
       continue;
     }
     insert(b, state);
   }
+}
+
+void HeapCore::lay_on_table(std::size_t body) {
+  std::vector<Footprint> others;
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in && plan_->lying.count(plan_->line_of[b]))
+      others.push_back(footprint(part(b), states_[b].pose));
+  Aabb bin = plan_->bin_bounds;
+  if (bin.empty()) bin.extend(Vec3::Zero());
+  const std::size_t line = plan_->line_of[body];
+  const Request& request = plan_->request;
+  const auto pose = place_on_table(part(body), plan_->lying.at(line), bin, request.table.height.value(),
+                                   request.parts[line].on_table, others, random_);
+  if (pose)
+    insert(body, {*pose, {}});
+  else
+    place_[body] = Place::no_room;
 }
 
 void HeapCore::start_grid() {

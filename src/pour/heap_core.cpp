@@ -227,6 +227,7 @@ Scene HeapCore::scene() {
     part.id = static_cast<int>(b);
     part.line = plan_->line_of[b];
     part.model = plan_->request.parts[part.line].model;
+    part.distractor = plan_->request.parts[part.line].distractor;
     part.pose = states_[b].pose;
     part.velocity = states_[b].velocity;
     part.state = state_of(b);

@@ -95,6 +95,7 @@ class HeapCore final : private HeapView {
   /// Places the parts from body `first` on at their start poses. Returns whether some of them enter from above.
   bool enter(std::size_t first);
   void start_given(std::size_t first);
+  void lay_on_table(std::size_t body);
   void start_grid();
   void start_rain();
   void insert_waiting();

@@ -28,7 +28,7 @@ WorldDef world_of(const LoadedRequest& loaded) {
     body.mass = mass_of(line, *loaded.parts[l]);
     body.friction = line.friction;
     body.restitution = line.restitution;
-    body.fixed = line.fixed;
+    body.fixed = line.stays();
     world.bodies.insert(world.bodies.end(), line.count, body);
   }
   BIN_SCENES_ASSERT(world.bodies.size() == request.part_count() && world.parts.size() == request.parts.size());

@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/mesh/bin_mesh.hpp"
 #include "bin_scenes/pour/pour.hpp"
 
 #include <algorithm>
@@ -20,7 +21,8 @@ double largest_diagonal(const WorldDef& world) {
 }
 
 Aabb bin_bounds_of(const WorldDef& world) {
-  return world.bin_model ? transformed(world.bin_model->mesh(), world.bin.pose).bounds() : Aabb();
+  if (world.bin_model) return transformed(world.bin_model->mesh(), world.bin.pose).bounds();
+  return world.bin.kind == Bin::Kind::box ? box_bin_mesh(world.bin).bounds() : Aabb();
 }
 
 Opening opening_of(const WorldDef& world, const Aabb& box, double part) {
@@ -60,7 +62,7 @@ PourPlan::PourPlan(const LoadedRequest& loaded)
     }
     if (line.poses.empty() && line.fixed)
       throw input_error("a fixed part needs a pose", where + ".poses", "give one pose [x,y,z,qx,qy,qz,qw] per copy");
-    if (line.poses.empty() && r.pour.pattern == Pour::Pattern::given)
+    if (line.poses.empty() && !line.stays() && r.pour.pattern == Pour::Pattern::given)
       throw input_error("pour.pattern given needs start poses", where + ".poses",
                         "give one pose per copy, or pour.scene, or pattern: rain");
     if (!line.poses.empty() && line.poses.size() != line.count)
@@ -71,6 +73,7 @@ PourPlan::PourPlan(const LoadedRequest& loaded)
           std::to_string(line.velocities.size()) + " velocities for " + std::to_string(line.poses.size()) + " poses",
           where + ".velocities", "give one velocity per pose, or none");
     covers.push_back(cover(loaded.parts[l]->mesh()));
+    if (line.on_table > 0.0) lying.emplace(l, *loaded.parts[l]);
     for (std::size_t copy = 0; copy < line.count; ++copy) {
       line_of.push_back(l);
       copy_of.push_back(copy);

@@ -5,7 +5,9 @@
 #include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/pour/spawn.hpp"
 #include "bin_scenes/solver/solver.hpp"
+#include "pour/lying.hpp"
 
+#include <map>
 #include <vector>
 
 namespace bin_scenes {
@@ -19,9 +21,10 @@ struct PourPlan {
   std::vector<Cover> covers;                  ///< by part line
   Cover bin_cover;                            ///< mesh bin only
   double largest_part;                        ///< m: diagonal
-  Aabb bin_bounds;                            ///< mesh bin only
+  Aabb bin_bounds;                            ///< of the outside of a bin with walls; else empty
   Opening opening;                            ///< the box in which parts enter; upper.z is the height of the rim
   double entry_height = 0.0;                  ///< m, height of the walls of a box while parts enter
+  std::map<std::size_t, LyingPoses> lying;    ///< by part line, of those on the table
   std::vector<std::size_t> line_of, copy_of;  ///< by body: index of its part line, and number within the line
 };
 

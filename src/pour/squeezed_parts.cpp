@@ -27,7 +27,7 @@ std::vector<Standing> standing(const PourPlan& plan) {
   std::vector<Standing> all;
   for (std::size_t b = 0; b < plan.line_of.size(); ++b) {
     const PartLine& line = plan.request.parts[plan.line_of[b]];
-    if (line.poses.empty() || line.fixed) continue;
+    if (line.poses.empty() || line.stays()) continue;
     const Pose& pose = line.poses[plan.copy_of[b]];
     const PartModel& part = *plan.world.parts[plan.world.bodies[b].part];
     Standing s{b, {}, pose * part.mass().center};

@@ -26,7 +26,7 @@ class Drawing {
         lens_(lens),
         rays_(lens),
         turn_(pose.orientation.toRotationMatrix()),
-        height_over_floor_(pose.position.z()),
+        height_over_floor_(pose.position.z() - scenery.floor_height().value_or(0.0)),
         nearest_(1.0 / near),
         farthest_(1.0 / far),
         projection_(lens, near, far, 0.0),
@@ -178,7 +178,7 @@ void Drawing::draw_band(int index) {
             : &silhouettes_[static_cast<std::size_t>(body.placed.part)];
     for (const Projection::Covering& c : body.bands[own]) draw_triangle(band, body, c.triangle, silhouette);
   }
-  if (scenery_.on_floor()) draw_floor(band);
+  if (scenery_.floor_height()) draw_floor(band);
   show(band);
 }
 
@@ -203,6 +203,7 @@ Drawing::Shown Drawing::shown_of(std::uint32_t face) const {
   Shown shown{{}, 0, -1};
   if (face == Scenery::floor_face) {
     n = (height_over_floor_ > 0.0 ? 1.0 : -1.0) * turn_.row(2).transpose();
+    shown.line = scenery_.floor_line();
   } else if (face != Scenery::no_face) {
     const auto after = std::upper_bound(bodies_.begin(), bodies_.end(), face,
                                         [](std::uint32_t f, const Body& body) { return f < body.placed.first_face; });

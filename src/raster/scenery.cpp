@@ -122,9 +122,10 @@ struct Scenery::State {
   RTCScene scene = nullptr;
   std::vector<Body> bodies;  // by Embree's number of the instance
   static constexpr std::uint32_t faces_a_step = 64;
-  std::vector<std::uint32_t> body_at;                 // of each 64th face
-  std::vector<std::int64_t> of_part;                  // index into bodies by index into Scene::parts; -1: not there
-  bool floor = false;                                 // endless, z = 0
+  std::vector<std::uint32_t> body_at;  // of each 64th face
+  std::vector<std::int64_t> of_part;   // index into bodies by index into Scene::parts; -1: not there
+  std::optional<double> floor;         // z of an endless plane
+  std::int32_t floor_line = -1;
   static constexpr std::uint32_t of_the_floor = ~0u;  // Hit::body
 
   ~State() {
@@ -159,7 +160,7 @@ struct Scenery::State {
   }
 
   bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }
-  static double floor_distance(const Ray& ray) { return -ray.origin.z() / ray.direction.z(); }  // 0 / 0 is no number
+  double floor_distance(const Ray& ray) const { return (*floor - ray.origin.z()) / ray.direction.z(); }  // may be NaN
   static bool within(const Ray& ray, double distance) { return distance >= ray.near && distance <= ray.far; }
   Hit hit_of(const Ray& ray, std::uint32_t body, std::uint32_t triangle, double about) const;
   Hit floor_hit(const Ray& ray) const;
@@ -173,7 +174,9 @@ Scenery::Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& 
   State& s = *state_;
   s.scene = rtcNewScene(embree_device());
   rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
-  s.floor = bin.kind == Bin::Kind::floor;
+  s.floor = loaded.request.table.height;
+  s.floor_line = table_line;
+  if (bin.kind == Bin::Kind::floor) s.floor = 0.0, s.floor_line = -1;
   if (bin.kind == Bin::Kind::mesh && loaded.bin_model) {
     s.add(cache.state().tree_of(loaded.bin_model), loaded.bin_model, bin.pose, 0, -1, -1);
   } else if (bin.kind == Bin::Kind::box) {
@@ -217,7 +220,8 @@ Hit Scenery::State::hit_of(const Ray& ray, std::uint32_t number, std::uint32_t t
 }
 
 Hit Scenery::State::floor_hit(const Ray& ray) const {
-  return {floor_distance(ray), ray.direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ()), 0, -1, 0, of_the_floor};
+  return {floor_distance(ray), ray.direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ()), 0, floor_line, 0,
+          of_the_floor};
 }
 
 std::uint32_t Scenery::State::body_of(std::uint32_t face) const {
@@ -336,8 +340,12 @@ std::uint32_t Scenery::face_of(const Hit& hit) const {
   return hit.body == State::of_the_floor ? floor_face : state_->bodies[hit.body].first_face + hit.triangle;
 }
 
-bool Scenery::on_floor() const {
+std::optional<double> Scenery::floor_height() const {
   return state_->floor;
+}
+
+std::int32_t Scenery::floor_line() const {
+  return state_->floor_line;
 }
 
 }  // namespace bin_scenes

@@ -32,7 +32,7 @@ ClearSight::ClearSight(const Scenery& scenery, const Lens& light, const Pose& po
       origin_(pose.position),
       columns_(static_cast<int>(light.width / cell_size) + 1),
       rows_(static_cast<int>(light.height / cell_size) + 1) {
-  if (light.distorts() || light.skew != 0.0 || (scenery.on_floor() && !(origin_.z() > 0.0))) return;
+  if (light.distorts() || light.skew != 0.0 || !(origin_.z() > scenery.floor_height().value_or(-1e300))) return;
   cells_.assign(static_cast<std::size_t>(columns_) * rows_, {nobody, bent, 0.0f, 0.0f});
   for (std::uint32_t i = 0; i < scenery.body_count(); ++i) {
     Seen seen;
@@ -151,7 +151,7 @@ bool ClearSight::clear(const Vec3& point, const Vec3& there, const Eigen::Vector
   const double depth = there.z() + 2.0 * off_surface;  // what comes nearer than this may occlude the point
   if (face.on_floor) return cell.first * depth < 1.0;
   if (cell.body != face.body || face.normal.dot(origin_ - point) <= 0.0) return false;
-  if (scenery_.on_floor() && point.z() < off_surface) return false;
+  if (point.z() < scenery_.floor_height().value_or(-1e300) + off_surface) return false;
   return (face.outermost || cell.plane != bent) && cell.second * depth < 1.0;
 }
 

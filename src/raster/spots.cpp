@@ -62,7 +62,8 @@ void SpotDrawing::Band::sort(const Lens& lens) {
 SpotDrawing::SpotDrawing(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far)
     : scenery_(scenery),
       lens_(lens),
-      floor_(pose.orientation.toRotationMatrix().row(2).transpose() / -pose.position.z()),
+      floor_(pose.orientation.toRotationMatrix().row(2).transpose() /
+             (scenery.floor_height().value_or(0.0) - pose.position.z())),
       nearest_(1.0 / near),
       usable_(!lens.distorts() && lens.skew == 0.0),
       bodies_(usable_ ? scenery.body_count() : 0) {
@@ -111,7 +112,7 @@ void SpotDrawing::draw_band(Band& band) const {
     if (own >= body.bands.size()) continue;
     for (const Projection::Covering& covering : body.bands[own]) draw_triangle(band, body, covering);
   }
-  if (scenery_.on_floor()) draw_floor(band);
+  if (scenery_.floor_height()) draw_floor(band);
   for (std::size_t i = 0; i < band.given.size(); ++i) *band.given[i] = band.spots[band.places[i]];
 }
 

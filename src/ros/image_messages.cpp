@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/gray_image.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "frames.hpp"
 #include "markers.hpp"
@@ -179,6 +180,11 @@ sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header) {
   const auto outside = static_cast<std::uint8_t>(Validity::nothing);
   return plane(rectified(image.validity, outside, image), image.width, image.height,
+               sensor_msgs::image_encodings::MONO8, header);
+}
+
+sensor_msgs::Image gray_message(const RangeImage& image, const std_msgs::Header& header) {
+  return plane(rectified(gray_of(image), std::uint8_t{0}, image), image.width, image.height,
                sensor_msgs::image_encodings::MONO8, header);
 }
 

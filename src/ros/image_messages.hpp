@@ -39,6 +39,8 @@ sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);
 /// mono8: codes of scene/validity.hpp; as taken.
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
+/// mono8: the grey image of a range sensor, which must have been made with it (gray_image.hpp); as taken.
+sensor_msgs::Image gray_message(const RangeImage& image, const std_msgs::Header& header);
 /// mono8, mono16, rgb8 or rgb16, as taken; none of a sensor that takes no picture.
 std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header);
 /// The same of a channel of the table.

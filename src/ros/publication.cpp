@@ -25,7 +25,7 @@ struct Publication::SensorTopics {
   LazyTopic<sensor_msgs::PointCloud2> points;
   LazyTopic<sensor_msgs::Image> depth;
   LazyTopic<sensor_msgs::CameraInfo> camera_info, picture_info;
-  LazyTopic<sensor_msgs::Image> labels, validity, picture;
+  LazyTopic<sensor_msgs::Image> labels, validity, gray, picture;
   std::list<LazyTopic<sensor_msgs::Image>> channels;  ///< those of the table that have a topic
 
   SensorTopics(Publication& p, const std::string& name_space)
@@ -36,6 +36,7 @@ struct Publication::SensorTopics {
         picture_info(options(p, topic::picture_info), p.from_image<sensor_msgs::CameraInfo>(*this, model_of_picture)),
         labels(options(p, topic::labels), p.from_image<sensor_msgs::Image>(*this, label_message)),
         validity(options(p, topic::validity), p.from_image<sensor_msgs::Image>(*this, validity_message)),
+        gray(options(p, topic::gray), p.from_image<sensor_msgs::Image>(*this, gray_message)),
         picture(options(p, topic::picture), p.from_image<sensor_msgs::Image>(*this, picture_message)) {
     for (const ImageChannel& channel : image_channels())
       if (!channel.topic.empty())
@@ -70,7 +71,7 @@ struct Publication::SensorTopics {
 
   bool wanted() const {
     return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted() ||
-           picture.wanted() || picture_info.wanted() ||
+           gray.wanted() || picture.wanted() || picture_info.wanted() ||
            std::any_of(channels.begin(), channels.end(), [](const auto& topic) { return topic.wanted(); });
   }
   void renew() {
@@ -79,6 +80,7 @@ struct Publication::SensorTopics {
     camera_info.renew();
     labels.renew();
     validity.renew();
+    gray.renew();
     picture.renew();
     picture_info.renew();
     for (auto& topic : channels) topic.renew();
@@ -89,6 +91,7 @@ struct Publication::SensorTopics {
     camera_info.show();
     labels.show();
     validity.show();
+    gray.show();
     picture.show();
     picture_info.show();
     for (auto& topic : channels) topic.show();
@@ -140,29 +143,52 @@ void Publication::set_publish_rate(double rate) {
 }
 
 /// Which of the sensors somebody listens to. Those whose topics have yet to be made have no listeners.
-std::vector<bool> Publication::wanted(const std::vector<Sensor>& sensors) const {
-  std::vector<bool> wanted;
-  for (const Sensor& sensor : sensors) {
-    const std::string space = topic::of_sensor("", sensor.name, sensors.size());
-    wanted.push_back(std::any_of(sensors_.begin(), sensors_.end(),
-                                 [&](const auto& topics) { return topics->space == space && topics->wanted(); }));
+Publication::Wanted Publication::wanted(const std::vector<Sensor>& sensors) const {
+  Wanted wanted{std::vector<bool>(sensors.size(), false), std::vector<bool>(sensors.size(), false)};
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const std::string space = topic::of_sensor("", sensors[s].name, sensors.size());
+    for (const auto& topics : sensors_) {
+      if (topics->space != space) continue;
+      wanted.images[s] = topics->wanted();
+      wanted.gray[s] = topics->gray.wanted();
+    }
   }
   return wanted;
 }
 
+/// Makes the images that are wanted and not there. One that was made without its grey image is made again with it.
+/// Returns how many were made.
+std::size_t Publication::take_images(MadeScene& made, const Wanted& wanted) {
+  made.with_gray.resize(made.images.size(), false);
+  std::vector<bool> missing = wanted.images;
+  bool gray = false;
+  for (std::size_t s = 0; s < missing.size(); ++s) {
+    const bool lacks_gray = wanted.gray[s] && !made.with_gray[s];
+    missing[s] = missing[s] && (made.images[s].depth.empty() || lacks_gray);
+    gray = gray || (missing[s] && lacks_gray);
+    if (missing[s]) made.images[s] = RangeImage();
+  }
+  const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
+  if (count == 0) return 0;
+  const StageTimer timer(made.scene.report.profile, "render");
+  rig_.render(made.scene, made.loaded, missing, made.images, gray);
+  for (std::size_t s = 0; s < missing.size(); ++s)
+    if (missing[s]) made.with_gray[s] = gray;
+  return count;
+}
+
 void Publication::render(MadeScene& made, bool all, const RunHooks& hooks) {
   const std::vector<Sensor>& sensors = made.scene.sensors;
-  const std::vector<bool> these =
-      all ? std::vector<bool>(sensors.size(), true) : thread_.call([&] { return wanted(sensors); });
-  if (std::none_of(these.begin(), these.end(), [](bool wanted) { return wanted; })) return;
+  Wanted these = thread_.call([&] { return wanted(sensors); });
+  if (all) these.images.assign(sensors.size(), true);
+  if (std::none_of(these.images.begin(), these.images.end(), [](bool wanted) { return wanted; })) return;
   if (hooks.progress) {
     Progress progress;
     progress.phase = "render";
     progress.parts = made.scene.parts.size();
     hooks.progress(progress);
   }
-  const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.loaded, these, made.images, false);
+  take_images(made, these);
 }
 
 Publication::Counts Publication::counts() const {
@@ -221,15 +247,9 @@ void Publication::show_images() {
 
 /// Those that are wanted and not there yet; returns whether there were any.
 bool Publication::make_images(Shown& shown) {
-  MadeScene& made = shown.made;
-  std::vector<bool> missing = wanted(made.scene.sensors);
-  for (std::size_t s = 0; s < missing.size(); ++s) missing[s] = missing[s] && made.images[s].depth.empty();
-  const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
-  if (count == 0) return false;
-  const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.loaded, missing, made.images, false);
+  const std::size_t count = take_images(shown.made, wanted(shown.made.scene.sensors));
   renderings_ += count;
-  return true;
+  return count > 0;
 }
 
 /// Topics that stay keep their subscribers; those that no sensor has any more go. Without sensors the plain ones stay.

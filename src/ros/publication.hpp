@@ -54,7 +54,12 @@ class Publication {
   void publish_again();
   void show_images();
   bool make_images(Shown& shown);
-  std::vector<bool> wanted(const std::vector<Sensor>& sensors) const;
+  /// By sensor: whether somebody listens to one of its topics, and to that of its grey image.
+  struct Wanted {
+    std::vector<bool> images, gray;
+  };
+  Wanted wanted(const std::vector<Sensor>& sensors) const;
+  std::size_t take_images(MadeScene& made, const Wanted& wanted);
   void set_topics(const std::vector<Sensor>& sensors);
   template <class Message, class Convert>
   std::function<std::optional<Message>()> from_image(const SensorTopics& topics, Convert convert);

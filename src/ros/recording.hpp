@@ -32,6 +32,7 @@ void for_each_message(const Scene& scene, const LoadedRequest& loaded, const std
     if (image.camera_info) write(name(topic::camera_info), *image.camera_info, Latch::yes);
     write(name(topic::labels), image.labels, Latch::yes);
     write(name(topic::validity), image.validity, Latch::yes);
+    if (!taken.gray.empty()) write(name(topic::gray), gray_message(taken, image.points.header), Latch::yes);
     for (const ImageChannel& channel : image_channels())
       if (!channel.topic.empty())
         if (const auto message = channel_message(channel, taken, image.points.header))

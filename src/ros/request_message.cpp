@@ -125,6 +125,7 @@ class Keys {
   }
   void operator()(const std::string&, const std::vector<std::string>&) {}  // `set`, whose items are overrides
   void operator()(const std::string& field, const msgs::Bin& message) { section(field, message); }
+  void operator()(const std::string& field, const msgs::Table& message) { section(field, message); }
   void operator()(const std::string& field, const msgs::Surface& message) { section(field, message); }
   void operator()(const std::string& field, const msgs::Motion& message) { section(field, message); }
 

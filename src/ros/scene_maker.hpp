@@ -15,6 +15,7 @@ struct MadeScene {
   Scene scene;
   LoadedRequest loaded;  ///< the request with the parts that were added; without the models of parts once it is stored
   std::vector<RangeImage> images;  ///< one a sensor; RangeImage() until somebody subscribes (Publication)
+  std::vector<bool> with_gray;     ///< by sensor: whether its image has a grey image
   Request asked;               ///< the request that was poured first; next_scene follows it, whatever was added since
   std::shared_ptr<Heap> heap;  ///< the heap of which it is a snapshot; null: the bin was emptied
 };

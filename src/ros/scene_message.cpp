@@ -25,6 +25,7 @@ msgs::ScenePart part_message(const ScenePart& part, const std::vector<Sensor>& s
   message.pose = pose_message(part.pose);
   message.velocity.linear = vector_message(part.velocity.linear);
   message.velocity.angular = vector_message(part.velocity.angular);
+  message.distractor = part.distractor;
   message.state = static_cast<std::uint8_t>(part.state);
   for (const Sensor& sensor : sensors) {
     const auto seen = part.visible_fraction.find(sensor.name);

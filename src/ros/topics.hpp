@@ -18,6 +18,7 @@ constexpr char depth[] = "depth/image_rect";
 constexpr char camera_info[] = "depth/camera_info";
 constexpr char labels[] = "labels/image_raw";
 constexpr char validity[] = "validity/image_raw";
+constexpr char gray[] = "gray/image_raw";
 constexpr char picture[] = "image_raw";
 constexpr char picture_info[] = "camera_info";
 constexpr char acquisition_done[] = "acquisition_done";

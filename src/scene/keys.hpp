@@ -113,6 +113,22 @@ void visit(Visitor& v, Bin& bin) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, Table& table) {
+  v.field({"height", "m",
+           "Height of the table, as z in the bin frame. The lower side of a bin that is a box is at -`wall_thickness`. "
+           "Without this key, there is no table.",
+           at_least(-100.0, 100.0)},
+          table.height);
+  v.section({"surface", "", "Optical properties of the table."}, table.surface);
+  v.field({"mottle", "",
+           "Largest deviation of the albedo from its mean, divided by the mean. The table has lighter and darker "
+           "patches, which differ between scenes.",
+           at_least(0.0, 1.0)},
+          table.mottle);
+  v.field({"patch", "m", "Size of the largest patches.", above(0.0, 100.0)}, table.patch);
+}
+
+template <class Visitor>
 void visit(Visitor& v, Tessellation& fine) {
   v.field({"chord", "m",
            "Largest distance between the triangles and the true surface. If it is not given, it is 0.0002 times the "
@@ -195,6 +211,18 @@ void visit(Visitor& v, PartLine& part) {
            "If true, the parts are obstacles, for example dividers or fixtures, that stay at the given `poses` or "
            "follow their `motion`."},
           part.fixed);
+  v.field({"distractor", "",
+           "If true, the parts have no label: label images contain 0 where they are seen, and the ground truth of BOP "
+           "does not list them. They are simulated and seen like other parts, and hide them. Distractors must be the "
+           "last entries of the list.",
+           anything, part.distractor},
+          part.distractor);
+  v.field({"on_table", "m",
+           "If it is above 0, the parts do not enter the bin. They lie on the table around it in stable poses, which "
+           "are drawn from the seed, and do not move. Seen from above, the gap between the bin and the circle around "
+           "a part is at most this wide.",
+           at_least(0.0, 100.0), part.on_table != 0.0},
+          part.on_table);
   v.section(
       {"surface", "", "Optical properties of the parts. The simulation of their movement does not depend on them."},
       part.surface);
@@ -357,6 +385,11 @@ void visit(Visitor& v, Request& request) {
              "The container of the parts. The origin of the bin frame is the centre of the floor's top surface, and z "
              "points up."},
             request.bin);
+  v.section({"table", "",
+             "An endless plane below the bin. All sensors see it: it has depth, and its label is 0. The simulation "
+             "does not contain it.",
+             anything, request.table.height.has_value() || request.table.mottle > 0.0},
+            request.table);
   v.field({"gravity", "m/s2", "Acceleration of gravity in the bin frame.", at_least(-1e4, 1e4)}, request.gravity);
   v.list({"parts", "", "Models of which parts are made and poured. Several entries give a mixed bin.", anything, true,
           true},

@@ -201,6 +201,9 @@ void visit(Visitor& v, ScenePart& part) {
            anything, true, true},
           part.pose);
   v.field({"state", "", "State of the part at the end of the simulation.", anything, true, true}, part.state);
+  v.field(
+      {"distractor", "", "True for a part without a label. It is left out for other parts.", anything, part.distractor},
+      part.distractor);
   const bool moves = part.velocity.linear != Vec3::Zero() || part.velocity.angular != Vec3::Zero();
   v.field({"velocity", "m/s, rad/s",
            "Velocity of the centre of mass and angular velocity, in the bin frame, when the simulation ended. It is "

@@ -103,6 +103,19 @@ void check_bin(const Bin& bin, const Vec3& gravity) {
   if (bin.kind == Bin::Kind::mesh && bin.mesh.empty()) refuse("bin.mesh", "is empty", "name a mesh file");
 }
 
+void check_table(const Request& request) {
+  const Table& table = request.table;
+  if (!table.height) {
+    if (table.mottle > 0.0) refuse("table.height", "is missing", "give the z of the table in the bin frame (m)");
+    return;
+  }
+  const Bin& bin = request.bin;
+  if (bin.kind == Bin::Kind::floor)
+    refuse("table.height", "has no effect, because the bin is an endless floor", "remove table or bin.floor");
+  if (bin.kind == Bin::Kind::box && *table.height > -bin.wall_thickness + 1e-9)
+    refuse("table.height", "is above the underside of the bin", "give at most -bin.wall_thickness");
+}
+
 void check_start(const std::string& key, const PartLine& line, Pour::Pattern pattern) {
   if (!line.poses.empty() && line.poses.size() != line.count) {
     refuse(key + ".poses", "has " + count_of(line.poses.size(), "poses") + " for " + count_of(line.count, "parts"),
@@ -116,10 +129,10 @@ void check_start(const std::string& key, const PartLine& line, Pour::Pattern pat
   if (line.poses.empty() && line.fixed) {
     refuse(key + ".poses", "is missing for a fixed part", "give its pose: [[x, y, z, qx, qy, qz, qw]]");
   }
-  if (line.poses.empty() && pattern == Pour::Pattern::given) {
+  if (line.poses.empty() && pattern == Pour::Pattern::given && !line.stays()) {
     refuse(key + ".poses", "is missing for pour.pattern given", "give one pose for each part, or give pour.scene");
   }
-  if (!line.poses.empty() && !line.fixed && pattern != Pour::Pattern::given) {
+  if (!line.poses.empty() && !line.stays() && pattern != Pour::Pattern::given) {
     refuse(key + ".poses", "has no effect, because the parts are poured",
            "set pour.pattern: given, or fixed: true for an obstacle");
   }
@@ -193,9 +206,15 @@ void check(const Request& request) {
   RangeCheck ranges;
   visit(ranges, copy);
   check_bin(request.bin, request.gravity);
+  check_table(request);
   if (request.parts.empty()) refuse("parts", "is missing or empty", "list at least one model");
   for (std::size_t i = 0; i < request.parts.size(); ++i) {
-    check_part("parts[" + std::to_string(i) + "]", request.parts[i], request.pour.pattern);
+    const std::string key = "parts[" + std::to_string(i) + "]";
+    check_part(key, request.parts[i], request.pour.pattern);
+    if (i > 0 && request.parts[i - 1].distractor && !request.parts[i].distractor)
+      refuse(key, "comes after distractors", "list distractors last, so that the ids of the other parts have no gaps");
+    if (request.parts[i].on_table > 0.0 && !request.table.height)
+      refuse(key + ".on_table", "needs a table", "give table.height");
   }
   check_counts(request);
   check_grippers(request);

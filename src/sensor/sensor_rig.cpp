@@ -13,6 +13,22 @@ namespace bin_scenes {
 
 namespace {
 
+/// Distractors are background to whoever reads labels.
+void remove_distractors(const Scene& scene, RangeImage& image, std::vector<Silhouette>& alone) {
+  std::vector<char> removed;  // by label
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    if (!scene.parts[i].distractor) continue;
+    const auto label = static_cast<std::size_t>(scene.parts[i].id) + 1;
+    if (removed.size() <= label) removed.resize(label + 1, 0);
+    removed[label] = 1;
+    alone[i] = Silhouette();
+  }
+  if (removed.empty()) return;
+  for (std::vector<std::uint16_t>* labels : {&image.label, &image.truth_label})
+    for (std::uint16_t& label : *labels)
+      if (label < removed.size() && removed[label]) label = 0;
+}
+
 /// How much of each part is seen, and would be if it were alone.
 void count_pixels(RangeImage& image, const Scene& scene, std::vector<Silhouette>&& alone) {
   int largest = -1;
@@ -79,6 +95,7 @@ void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vec
     const Draw draw{scene.seed, scene.index, s, gray};
     RangeImage& image = images[s] = measure(scenery, std::move(seen.view), device, surfaces, draw);
     report_as_believed(image, device, sensor);
+    remove_distractors(scene, image, seen.alone);
     count_pixels(image, scene, std::move(seen.alone));
     scene.report.profile.count("views");
     scene.report.profile.count("noisy_images", sensor.noise && !sensor_model(sensor.model).exact);
@@ -86,6 +103,7 @@ void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vec
     for (std::size_t i = 0; i < scenery.part_count(); ++i) there += scenery.part(i).mesh != nullptr;
     scene.report.profile.count("silhouettes", there);
     for (ScenePart& part : scene.parts) {
+      if (part.distractor) continue;
       const auto id = static_cast<std::size_t>(part.id);
       const double all = static_cast<double>(image.total[id]);
       part.visible_fraction[sensor.name] = all > 0.0 ? static_cast<double>(image.visible[id]) / all : 0.0;

@@ -20,6 +20,7 @@ class Targets {
  public:
   /// @param pose  of the mesh in the world, which is the bin frame of sensors
   void add(const Mesh& mesh, const Pose& pose, const Surface& surface = {});
+  void set_table(const Table& table) { request_.table = surfaces_.table = table; }
   Scenery scenery();
   const Surfaces& surfaces() const { return surfaces_; }
   const Request& request() const { return request_; }

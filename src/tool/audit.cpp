@@ -6,6 +6,7 @@
 #include "core/formatted.hpp"
 #include "dataset/whole_folders.hpp"
 #include "page/audit_page.hpp"
+#include "page/view_models.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
 
@@ -46,11 +47,20 @@ AuditBin bin_given(const AuditOptions& options) {
   return bin;
 }
 
-/// The bin that a data set of this project states for a scene.
-std::optional<Vec3> own_bin(const fs::path& root, const BopView& view) {
-  const auto scene = scene_in(root / "scenes" / ("scene_" + view.scene.filename().string()));
-  if (!scene || scene->bin.kind != Bin::Kind::box) return std::nullopt;
-  return scene->bin.inner_size;
+/// The bin that a data set of this project states for a scene, and the parts that are not in the ground truth.
+AuditBin own_bin(const fs::path& root, const BopView& view) {
+  AuditBin bin;
+  const fs::path folder = root / "scenes" / ("scene_" + view.scene.filename().string());
+  const auto scene = scene_in(folder);
+  if (!scene) return bin;
+  if (scene->bin.kind == Bin::Kind::box) bin.inner_size = scene->bin.inner_size;
+  for (const ScenePart& part : scene->parts) {
+    if (!part.distractor || !part.pose.finite()) continue;
+    PartLine line = scene->models.at(part.line);
+    line.path = find_model_file(scene->models[part.line], folder.string(), "");
+    bin.others.push_back({line, part.pose});
+  }
+  return bin;
 }
 
 std::string bin_text(const AuditBin& bin, bool own) {
@@ -128,9 +138,7 @@ int audit(const AuditOptions& options) {
     bar.show(0.8 * static_cast<double>(figures.heaps) / static_cast<double>(most),
              "heap " + std::to_string(figures.heaps + 1) + " of " + std::to_string(most));
     scenes.insert(heap.views.front()->scene);
-    AuditBin of_heap = bin;
-    if (own) of_heap.inner_size = own_bin(root, *heap.views.front());
-    auditor.audit(heap, of_heap, figures);
+    auditor.audit(heap, own ? own_bin(root, *heap.views.front()) : bin, figures);
   }
   auditor.audit_labels(figures, [&](double share) { bar.show(0.8 + 0.2 * share, "labels"); });
   check_ids(set, heaps, figures);

@@ -17,7 +17,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 REQUEST = {"Bin": "bin", "PartLine": "parts", "Surface": "parts.surface", "Motion": "parts.motion", "Sensor": "sensors",
-           "SceneRequest": ""}
+           "Table": "table", "SceneRequest": ""}
 SCENE = {"SceneReport": "report", "Penetration": "report.penetration", "Drift": "report.drift",
          "Energy": "report.energy", "Flag": "report.flags", "ScenePart": "parts", "Scene": ""}
 ALIASES = {"Sensor.K": "k", "Sensor.D": "distortion", "SceneRequest.index": "first", "SceneRequest.solver": "solver.type",

@@ -108,22 +108,25 @@ TEST(Spots, ShowTheFloorFromBothSides) {
   Stage stage;
   stage.request.bin.kind = Bin::Kind::floor;
   stage.place(stage.model(test::box_mesh({0.06, 0.04, 0.03})), at(0, 0, 0.1));
-  const Scenery scenery = stage.scenery();
   const Lens lens = Lens::from_fov(40, 30, 0.9);
-  for (const Pose& camera :
-       {at(0, 0, 0.6, turned(M_PI - 0.4, Vec3(1, 0.1, 0))), at(0, 0, -0.3, turned(0.4, Vec3(1, 0, 0)))}) {
-    std::vector<Spot> spots = spread(lens, 5.0, Random(1, 1, Stream::probe));
-    ASSERT_TRUE(SpotDrawing(scenery, lens, camera, 0.05, 5.0).draw(spots.data(), spots.size()));
-    for (const Spot& spot : spots) {
-      const Ray ray{camera.position, camera.orientation * lens.ray(spot.u, spot.v), 0.05, 5.0};
-      Hit truth;
-      scenery.first_hits(&ray, &truth, 1);
-      const Hit hit = scenery.hit(ray, spot.face, 1.0 / spot.near);
-      if (std::isnan(truth.distance)) {
-        ASSERT_EQ(spot.face, Scenery::no_face);
-      } else {
-        ASSERT_NEAR(hit.distance, truth.distance, 1e-9) << spot.u << " " << spot.v;
-        ASSERT_EQ(hit.normal, truth.normal);
+  for (const double height : {0.0, -0.1}) {
+    if (height < 0.0) stage.request.bin.kind = Bin::Kind::none, stage.request.table.height = height;
+    const Scenery scenery = stage.scenery();
+    for (const Pose& camera :
+         {at(0, 0, 0.6, turned(M_PI - 0.4, Vec3(1, 0.1, 0))), at(0, 0, height - 0.3, turned(0.4, Vec3(1, 0, 0)))}) {
+      std::vector<Spot> spots = spread(lens, 5.0, Random(1, 1, Stream::probe));
+      ASSERT_TRUE(SpotDrawing(scenery, lens, camera, 0.05, 5.0).draw(spots.data(), spots.size()));
+      for (const Spot& spot : spots) {
+        const Ray ray{camera.position, camera.orientation * lens.ray(spot.u, spot.v), 0.05, 5.0};
+        Hit truth;
+        scenery.first_hits(&ray, &truth, 1);
+        const Hit hit = scenery.hit(ray, spot.face, 1.0 / spot.near);
+        if (std::isnan(truth.distance)) {
+          ASSERT_EQ(spot.face, Scenery::no_face);
+        } else {
+          ASSERT_NEAR(hit.distance, truth.distance, 1e-9) << spot.u << " " << spot.v;
+          ASSERT_EQ(hit.normal, truth.normal);
+        }
       }
     }
   }

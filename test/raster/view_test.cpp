@@ -21,6 +21,17 @@ using test::BruteHit;
 using test::Stage;
 using test::turned;
 
+/// Surroundings of parts: in a bin, on a floor, alone, and in a bin and alone above a table.
+constexpr std::pair<Bin::Kind, double> surroundings[] = {{Bin::Kind::box, 0.0},
+                                                         {Bin::Kind::floor, 0.0},
+                                                         {Bin::Kind::none, 0.0},
+                                                         {Bin::Kind::box, -0.04},
+                                                         {Bin::Kind::none, -0.02}};
+void surround(Stage& stage, const std::pair<Bin::Kind, double>& by) {
+  stage.request.bin.kind = by.first;
+  stage.request.table.height = by.second < 0.0 ? std::optional<double>(by.second) : std::nullopt;
+}
+
 /// Boxes, rings and spheres in all poses, some hidden by others, about the point (0, 0, z).
 void scatter(Stage& stage, double z, std::uint64_t seed) {
   const std::size_t lines[] = {stage.model(test::box_mesh({0.06, 0.04, 0.03})), stage.model(test::sphere_mesh(0.03, 2)),
@@ -112,8 +123,8 @@ TEST(View, IsTheSameDrawnAndCast) {
   Stage stage;
   scatter(stage, 0.05, 7);
   const Lens lens = Lens::from_fov(160, 120, 0.9);
-  for (const Bin::Kind kind : {Bin::Kind::box, Bin::Kind::floor, Bin::Kind::none}) {
-    stage.request.bin.kind = kind;
+  for (const auto& by : surroundings) {
+    surround(stage, by);
     for (const auto& [near, far] : {std::pair{0.01, 10.0}, {0.55, 10.0}, {0.01, 0.6}, {0.58, 0.62}}) {
       for (const double height : {0.6, 0.2}) {
         const Pose above = at(0.02, -0.01, height, turned(M_PI - 0.1, Vec3(1, 0.1, 0)));
@@ -127,7 +138,8 @@ TEST(View, IsTheSameDrawnAndCast) {
                             !(std::abs(view.normal[i][2] - rays.normal[i][2]) > 1e-6);
           other += !same;
         }
-        EXPECT_LE(other, 2u) << "Embree is single at edges: " << static_cast<int>(kind) << " " << near << " " << height;
+        EXPECT_LE(other, 2u) << "Embree is single at edges: " << static_cast<int>(by.first) << " " << by.second << " "
+                             << near << " " << height;
       }
     }
   }
@@ -135,12 +147,12 @@ TEST(View, IsTheSameDrawnAndCast) {
 
 /// Of parts beside and above each other in a bin, on a floor and alone.
 TEST(View, WhatClearSightSparesNoRayIsBlocked) {
-  for (const Bin::Kind kind : {Bin::Kind::box, Bin::Kind::floor, Bin::Kind::none}) {
+  for (const auto& by : surroundings) {
     Stage stage;
     scatter(stage, 0.1, 11);
     stage.place(stage.model(test::torus_mesh(0.05, 0.02, 32, 16)),
                 {Vec3(0.05, 0.05, 0.15), turned(0.4, Vec3(1, 2, 0))});
-    stage.request.bin.kind = kind;
+    surround(stage, by);
     const Scenery scenery = stage.scenery();
     const Pose camera = at(0, 0, 0.9, Quat(0, 1, 0, 0)), light = at(0.15, 0, 0.9, turned(M_PI - 0.05, Vec3(1, 0.2, 0)));
     const Lens lens = Lens::from_fov(200, 160, 0.6);
@@ -163,9 +175,9 @@ TEST(View, WhatClearSightSparesNoRayIsBlocked) {
                        scenery.face(view.face[i])))
         continue;
       ++spared;
-      ASSERT_EQ(blocked, 0) << i % 200 << " " << i / 200 << " " << static_cast<int>(kind);
+      ASSERT_EQ(blocked, 0) << i % 200 << " " << i / 200 << " " << static_cast<int>(by.first) << by.second;
     }
-    EXPECT_GT(spared, lit / 2) << static_cast<int>(kind);
+    EXPECT_GT(spared, lit / 2) << static_cast<int>(by.first) << by.second;
   }
 }
 
@@ -217,7 +229,13 @@ TEST(View, FloorAndBoxHaveNoLabel) {
   stage.request.bin.kind = Bin::Kind::floor;
   const View floor = render(stage.scenery(), lens, above, 0.05, 10.0);
   for (const double depth : floor.depth) ASSERT_NEAR(depth, 1.0, 1e-12);
-  stage.request.bin.kind = Bin::Kind::none;
+  for (const std::int32_t line : floor.line) ASSERT_EQ(line, -1);
+  surround(stage, {Bin::Kind::none, -0.25});
+  const View table = render(stage.scenery(), lens, above, 0.05, 10.0);
+  for (const double depth : table.depth) ASSERT_NEAR(depth, 1.25, 1e-12);
+  for (const std::int32_t line : table.line) ASSERT_EQ(line, Scenery::table_line);
+  for (const std::uint16_t label : table.label) ASSERT_EQ(label, 0);
+  surround(stage, {Bin::Kind::none, 0.0});
   for (const double depth : render(stage.scenery(), lens, above, 0.05, 10.0).depth) ASSERT_TRUE(std::isnan(depth));
 }
 

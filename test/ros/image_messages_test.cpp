@@ -209,6 +209,18 @@ TEST(ImageMessages, APictureKeepsItsCounts) {
   for (std::size_t i = 0; i < 36; ++i) EXPECT_EQ(colour.data[i], image.picture.counts[i]);
 }
 
+TEST(ImageMessages, AGreyImageKeepsItsLevels) {
+  RangeImage image = some_image();
+  for (int i = 0; i < 12; ++i) image.gray.push_back(static_cast<std::uint8_t>(20 * i));
+  std_msgs::Header header;
+  header.frame_id = "there";
+  const sensor_msgs::Image message = gray_message(image, header);
+  EXPECT_EQ(message.header.frame_id, "there");
+  EXPECT_EQ(message.encoding, "mono8");
+  EXPECT_EQ(message.step, 4u);
+  EXPECT_EQ(message.data, image.gray);
+}
+
 TEST(ImageMessages, AChannelOfTheTableIsAMessageOfItsCounts) {
   const RangeImage image = some_image();
   std_msgs::Header header;

@@ -104,7 +104,7 @@ class LaunchTest(LaunchTestCase):
     def test_record(self):
         with Launched("bin_scenes.launch"):
             doors = Doors()
-            with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "recorded")) as recorder:
+            with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "recorded"), "gray:=true") as recorder:
                 wait_until(self.recorder_listens, 60)
                 # A recorder of another node's topics leaves the first one alone.
                 with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "other"), "space:=/other/"):
@@ -119,9 +119,9 @@ class LaunchTest(LaunchTestCase):
         with rosbag.Bag(glob.glob(pattern)[0]) as bag:
             found = bag.get_type_and_topic_info().topics
             for topic in ("/scene", "/markers", "/points", "/depth/image_rect", "/depth/camera_info", "/labels/image_raw",
-                          "/validity/image_raw", "/image_raw", "/camera_info", "/acquisition_done", "/tf", "/tf_static"):
+                          "/validity/image_raw", "/gray/image_raw", "/image_raw", "/camera_info", "/acquisition_done", "/tf", "/tf_static"):
                 self.assertIn(topic, found)
-            stamps = {m.header.stamp for _, m, _ in bag.read_messages(["/scene", "/points", "/labels/image_raw", "/image_raw"])}
+            stamps = {m.header.stamp for _, m, _ in bag.read_messages(["/scene", "/points", "/labels/image_raw", "/gray/image_raw", "/image_raw"])}
         self.assertEqual(stamps, {scene.header.stamp})
 
     def test_record_mcap(self):

@@ -89,6 +89,35 @@ class NodeTest(NodeCase):
         finally:
             side.close()
 
+    def test_the_grey_image_is_made_when_somebody_looks_at_it(self):
+        """After the depth image was made without it, or with it at once; both are one image."""
+        yaml = REQUEST.replace("name: camera", "name: camera, model: structured_light")
+        depth = Listener({"depth/image_rect": Image})
+        seen = []
+        try:
+            scene = self.scene(yaml=yaml)
+            before = depth.wait(scene.header.stamp, ["depth/image_rect"])["depth/image_rect"]
+            for late in (True, False):
+                gray = Listener({"gray/image_raw": Image, "scene": Scene})
+                try:
+                    if not late:
+                        time.sleep(0.3)
+                        scene = self.scene(yaml=yaml)
+                    message = gray.wait(scene.header.stamp, ["gray/image_raw", "scene"])["gray/image_raw"]
+                    time.sleep(0.3)  # the scene may be published again
+                    self.assertEqual(counter(gray.seen["scene"], "views"), 2 if late else 1)
+                finally:
+                    gray.close()
+                self.assertEqual((message.encoding, message.width, message.height), ("mono8", 240, 200))
+                self.assertEqual(message.header.frame_id, "camera_optical_frame")
+                seen.append(data.image_array(message))
+            after = depth.wait(scene.header.stamp, ["depth/image_rect"])["depth/image_rect"]
+        finally:
+            depth.close()
+        np.testing.assert_array_equal(seen[0], seen[1])
+        self.assertEqual(before.data, after.data)
+        self.assertGreater(seen[0].max(), 100)
+
     def test_a_late_subscriber_never_sees_an_older_scene(self):
         self.scene_on_topics(seed=[1])
         scene = self.scene(seed=[2])

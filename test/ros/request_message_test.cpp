@@ -235,5 +235,22 @@ TEST(RequestMessage, OutsideOfTheRootsNothingIsRead) {
   fs::remove_all(outside);
 }
 
+TEST(RequestMessage, TableAndDistractorsAreThoseOfAFile) {
+  msgs::SceneRequest m = one_bolt();
+  m.table.height = {-0.005};
+  m.table.surface.albedo = {0.0};
+  m.table.mottle = 0.25;
+  m.parts.push_back(m.parts[0]);
+  m.parts[1].distractor = true;
+  m.parts[1].on_table = 0.1;
+  const Request file = read_request_text(
+      "table: {height: -0.005, surface: {albedo: 0.0}, mottle: 0.25}\n"
+      "parts: [{model: bolt_hex.stl, unit: mm}, {model: bolt_hex.stl, unit: mm, distractor: true, on_table: 0.1}]",
+      models, {}, all_rules);
+  EXPECT_EQ(write_request(request_from(m, all_rules)), write_request(file));
+  EXPECT_EQ(file.table.surface.albedo, 0.0);
+  EXPECT_TRUE(file.parts[1].stays());
+}
+
 }  // namespace
 }  // namespace bin_scenes

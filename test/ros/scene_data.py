@@ -48,7 +48,7 @@ def cloud_array(cloud):
 
 
 def image_array(image):
-    return np.frombuffer(image.data, {"32FC1": "<f4", "16UC1": "<u2"}[image.encoding]).reshape(image.height, image.width)
+    return np.frombuffer(image.data, {"32FC1": "<f4", "16UC1": "<u2", "mono8": "u1"}[image.encoding]).reshape(image.height, image.width)
 
 
 def xyz(points):

@@ -295,5 +295,71 @@ TEST(SensorRig, VisibleFractionIsThatOfARayCast) {
   }
 }
 
+/// A plate before a wall, once as a part and once as a distractor.
+TEST(SensorRig, ADistractorIsSeenAndHidesOthersButHasNoLabel) {
+  RangeImage images[2];
+  Scene scenes[2];
+  for (const bool distractor : {false, true}) {
+    Stage stage;
+    stage.request.sensors[0].model = "structured_light";
+    stage.place(stage.model(box_mesh({1.0, 1.0, 0.1}, {0, 0, 0.05})), at(0, 0, 1.0));
+    stage.place(stage.model(box_mesh({0.2, 0.2, 0.02})), at(0, 0, 0.8));
+    stage.scene.parts[1].distractor = distractor;
+    images[distractor] = stage.render();
+    scenes[distractor] = stage.scene;
+  }
+  const RangeImage &part = images[0], &other = images[1];
+  std::size_t hidden = 0;
+  EXPECT_EQ(std::memcmp(part.depth.data(), other.depth.data(), part.depth.size() * sizeof(float)), 0);
+  EXPECT_EQ(std::memcmp(part.truth_depth.data(), other.truth_depth.data(), part.depth.size() * sizeof(float)), 0);
+  for (std::size_t i = 0; i < part.depth.size(); ++i) {
+    ASSERT_EQ(other.label[i], part.label[i] == 2 ? 0 : part.label[i]) << i;
+    ASSERT_EQ(other.truth_label[i], part.truth_label[i] == 2 ? 0 : part.truth_label[i]) << i;
+    hidden += part.truth_label[i] == 2;
+  }
+  EXPECT_GT(hidden, 1000u);
+  EXPECT_EQ(other.visible[0], part.visible[0]);
+  EXPECT_EQ(other.total[0], part.total[0]);
+  EXPECT_EQ(other.total[0] - other.visible[0], hidden);
+  EXPECT_EQ(other.visible[1], 0u);
+  EXPECT_EQ(other.total[1], 0u);
+  EXPECT_EQ(scenes[1].parts[0].visible_fraction, scenes[0].parts[0].visible_fraction);
+  EXPECT_TRUE(scenes[1].parts[1].visible_fraction.empty());
+}
+
+/// A table 0.1 m below a box bin: depth and normal of a plane, label 0, and light of the projector.
+TEST(SensorRig, ATableIsMeasuredLikeAPlane) {
+  for (const char* model : {"ideal", "structured_light", "stereo", "time_of_flight"}) {
+    Stage stage;
+    stage.request.bin.kind = Bin::Kind::box;
+    stage.request.bin.inner_size = Vec3(0.2, 0.2, 0.1);
+    stage.request.table.height = -0.1;
+    Sensor& sensor = stage.request.sensors[0];
+    sensor.model = model;
+    sensor.noise = false;
+    sensor.projector.fov = 1.3, sensor.projector.baseline = 0.05;
+    sensor.pose = Pose{Vec3(0.0, 0.0, 0.9), turned(M_PI - 0.1, Vec3::UnitX())};
+    const RangeImage image = stage.render();
+    std::size_t seen = 0, measured = 0;
+    std::array<std::size_t, 16> codes{};
+    for (std::size_t i = 0; i < image.depth.size(); ++i) {
+      const Vec3 along = sensor.pose->orientation * ray(image, i);
+      const double depth = 1.0 / -along.z();
+      const Vec3 point = sensor.pose->position + depth * along;
+      if (point.head<2>().cwiseAbs().maxCoeff() < 0.25) continue;  // the bin, and what it hides
+      ++seen, ++codes.at(image.validity[i]);
+      ASSERT_NEAR(image.seen_depth()[i], depth, 1e-6) << model;
+      ASSERT_EQ(image.seen_label()[i], 0) << model;
+      const auto& n = image.seen_normal()[i];
+      ASSERT_NEAR((sensor.pose->orientation * Vec3(n[0], n[1], n[2])).z(), 1.0, 1e-6) << model;
+      if (std::isnan(image.depth[i])) continue;
+      ++measured;
+      ASSERT_NEAR(image.depth[i], depth, 2e-3) << model;
+    }
+    EXPECT_GT(seen, 10000u) << model;
+    EXPECT_GT(measured, seen / 2) << model << ::testing::PrintToString(codes);
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
+#include "bin_scenes/raster/scenery.hpp"
 #include "bin_scenes/scene/request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 
@@ -25,19 +26,30 @@ struct Surfaces {
   };
   /// By label. Empty: surfaces have no texture, and Surface::along is in the bin frame.
   std::vector<Place> places = {};
+  Table table = {};
+  std::uint64_t table_key = 0;  ///< key of the random numbers of its patches
 
-  /// Returns the surface of a part line, or of the bin if `line` is -1.
-  const Surface& of(std::int32_t line) const { return line < 0 ? bin : lines[static_cast<std::size_t>(line)]; }
+  /// Returns the surface of a part line, of the bin if `line` is -1, or of the table if it is Scenery::table_line.
+  const Surface& of(std::int32_t line) const {
+    if (line >= 0) return lines[static_cast<std::size_t>(line)];
+    return line == Scenery::table_line ? table.surface : bin;
+  }
+  /// Whether at() differs from of() in albedo at some points.
+  bool vary() const;
   /// Returns the surface at a point (bin frame), with `along` in the bin frame.
   /// @param own  storage for the surface if it differs from of(line)
   const Surface& at(std::int32_t line, std::uint16_t label, const Vec3& point, Surface& own) const {
     const Surface& even = of(line);
-    if ((!even.texture.any() && even.anisotropy <= 0.0) || label >= places.size()) return even;
-    own = own_surface(even, places[label], point);
+    const bool patched = line == Scenery::table_line && table.mottle > 0.0;
+    const bool own_place = (even.texture.any() || even.anisotropy > 0.0) && label < places.size();
+    if (!patched && !own_place) return even;
+    own = patched ? table_at(point) : even;
+    if (own_place) own = own_surface(own, places[label], point);
     return own;
   }
 
  private:
+  Surface table_at(const Vec3& point) const;
   static Surface own_surface(const Surface& even, const Place& place, const Vec3& point);
 };
 /// Returns the surfaces of the part lines, without the textures of single parts.

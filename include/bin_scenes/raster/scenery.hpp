@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace bin_scenes {
@@ -24,7 +25,7 @@ struct Hit {
   double distance;         ///< in units of the direction; NaN if nothing was hit
   Vec3 normal;             ///< unit normal of the face in the bin frame, towards the origin of the ray
   std::uint16_t label;     ///< id + 1 of the part; 0 for the bin and for nothing
-  std::int32_t line;       ///< index into Request::parts; -1 for the bin and for nothing
+  std::int32_t line;       ///< index into Request::parts; -1 for the bin and for nothing, table_line for the table
   std::uint32_t triangle;  ///< index in the mesh of the part or the bin
   std::uint32_t body = 0;  ///< index of the body in the scenery (Scenery::body())
 };
@@ -49,6 +50,8 @@ class SceneryCache {
 /// precision.
 class Scenery {
  public:
+  static constexpr std::int32_t table_line = -2;  ///< in place of the index of a part line
+
   /// Throws an input Error if the id of a part is too large for a 16-bit label.
   Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& cache);
   ~Scenery();
@@ -110,8 +113,9 @@ class Scenery {
   /// Returns the number of the face that a ray hit.
   std::uint32_t face_of(const Hit& hit) const;
 
-  /// Whether there is an endless floor at z = 0.
-  bool on_floor() const;
+  /// The endless plane below everything: the floor at z = 0, or the table. None: there is no such plane.
+  std::optional<double> floor_height() const;
+  std::int32_t floor_line() const;  ///< Hit::line of that plane
 
  private:
   struct State;

@@ -20,7 +20,7 @@ struct View {
   std::vector<std::uint16_t> label;          ///< id + 1 of a part; 0 for the bin and for nothing
   std::vector<std::array<float, 3>> normal;  ///< unit normal of the face towards the lens; NaN where depth is NaN
   std::vector<std::uint32_t> face;           ///< number of the face (Scenery::Face)
-  std::vector<std::int32_t> line;            ///< index into Request::parts; -1 for the bin and for nothing
+  std::vector<std::int32_t> line;            ///< as Hit::line
 };
 
 /// Makes a view, by drawing the triangles where possible.

@@ -71,6 +71,14 @@ struct Bin {
   Motion motion;
 };
 
+/// The table below the bin: an endless plane that sensors and light meet, but no part that is simulated.
+struct Table {
+  std::optional<double> height;  ///< none: there is no table
+  Surface surface;
+  double mottle = 0.0;
+  double patch = 0.05;
+};
+
 /// How finely the surfaces of a STEP or IGES file are divided into triangles.
 struct Tessellation {
   std::optional<double> chord;
@@ -96,8 +104,12 @@ struct PartLine {
   std::vector<Pose> poses;
   std::vector<Twist> velocities;
   bool fixed = false;
+  bool distractor = false;
+  double on_table = 0.0;
   Surface surface;
   Motion motion;
+  /// Whether the parts never move: they are obstacles, or lie on the table.
+  bool stays() const { return fixed || on_table > 0.0; }
 };
 
 struct Pour {
@@ -279,6 +291,7 @@ struct Request {
   std::size_t scenes = 1;
   std::size_t first = 0;
   Bin bin;
+  Table table;
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   std::vector<PartLine> parts;
   Pour pour;

@@ -30,6 +30,7 @@ struct ScenePart {
               ///< not poured or was removed
   Twist velocity;  ///< of the centre of mass at the end of the simulation, bin frame
   PartState state = PartState::moving;
+  bool distractor = false;  ///< whether it is seen without a label (PartLine::distractor)
   /// Share of the part's silhouette that each sensor sees, by sensor name.
   std::map<std::string, double> visible_fraction;
 };

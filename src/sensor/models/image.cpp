@@ -73,8 +73,6 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
   PathTracer::Setup setup = setup_of(sensor, view);
   std::optional<Bevels> bevels;
   if (optics.bevel > 0.0) setup.bevels = &bevels.emplace(scenery, optics.bevel);
-  const Tabletop table(optics.table, Random(paths).of_piece(std::uint64_t{1} << 60).next());
-  if (table.there()) setup.table = &table;
   const PathTracer tracer(scenery, view.lens, view.pose, surfaces, lamps, setup, paths);
   const Imager imager(sensor.imager, sensor.noise);
 

@@ -9,24 +9,6 @@ namespace bin_scenes {
 
 namespace {
 
-void visit_table(KeyVisitor& v, Tabletop::Settings& table) {
-  v.field({"albedo", "", "Mean albedo of the table. With 0, there is no table.", at_least(0.0, 1.0)}, table.albedo);
-  v.field({"height", "m",
-           "Height of the table, as z in the bin frame. The lower side of a bin that is a box is at -`wall_thickness`.",
-           at_least(-100.0, 100.0)},
-          table.height);
-  v.field({"mottle", "",
-           "Largest deviation of the albedo from its mean, divided by the mean. The table has lighter and darker "
-           "patches, which differ between scenes.",
-           at_least(0.0, 1.0)},
-          table.mottle);
-  v.field({"patch", "m", "Size of the largest patches.", above(0.0, 100.0)}, table.patch);
-  v.field({"gloss", "", "Share of the reflected light that forms highlights.", at_least(0.0, 1.0)}, table.gloss);
-  v.field({"roughness", "", "Width of the highlights. Smaller values give narrower and brighter highlights.",
-           at_least(0.0, 1.0)},
-          table.roughness);
-}
-
 void visit_optics(KeyVisitor& v, ImageOptics& s) {
   v.field({"f_number", "",
            "Focal length of the lens divided by the diameter of its aperture. Surfaces that are out of focus are "
@@ -51,9 +33,6 @@ void visit_optics(KeyVisitor& v, ImageOptics& s) {
            "give sharper reflections with more Monte Carlo noise.",
            at_least(0.0, 1.0)},
           s.soft);
-  v.section(
-      {"table", "", "An endless table below the bin. It appears in pictures only, and has neither depth nor labels."},
-      [&](KeyVisitor& keys) { visit_table(keys, s.table); });
 }
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {

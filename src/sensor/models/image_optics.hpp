@@ -2,8 +2,6 @@
 /// Sensor::settings beside ImageSettings; its keys are in image_model.cpp.
 #pragma once
 
-#include "light/tabletop.hpp"
-
 namespace bin_scenes {
 
 struct ImageOptics {
@@ -12,7 +10,6 @@ struct ImageOptics {
   double focus = 0.0;           ///< m along the optical axis, depth that is sharp; 0: the median depth of the view
   double bevel = 0.0;           ///< m, radius of the fillets by which edges of parts are shaded
   double soft = 0.5;            ///< least roughness of mirrors that are seen in mirrors; 0: as they are
-  Tabletop::Settings table;
 };
 
 }  // namespace bin_scenes

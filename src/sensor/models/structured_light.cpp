@@ -18,11 +18,6 @@ namespace {
 /// direct light less the quarter of the amplitude that a bit has to pass.
 constexpr double turns_bits = 0.7;
 
-bool textured(const Surfaces& surfaces) {
-  return surfaces.bin.texture.any() || std::any_of(surfaces.lines.begin(), surfaces.lines.end(),
-                                                   [](const Surface& line) { return line.texture.any(); });
-}
-
 /// Adds what a fringe makes of a path: cosine and sine, and `all` channels further on their growth with each step.
 void add_phasor_of(const Path& path, const Fringes& fringes, const Vec3* steps, int all, float* out) {
   const double turn = fringes.turn(), seen = path.weight * fringes.seen_through(path.spread, 0.0, 0.0);
@@ -79,7 +74,7 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       columns_(view.depth.size()),
       whites_(view.depth.size()),
       planes_(view.depth.size()),
-      worn_(textured(surfaces) ? view.depth.size() : 0) {
+      worn_(surfaces.vary() ? view.depth.size() : 0) {
   constexpr std::size_t rows = 8;  // points enough to draw what occludes them
   const auto height = static_cast<std::size_t>(view_.lens.height);
   in_parallel((height + rows - 1) / rows,

@@ -1,6 +1,7 @@
 /// What makes pictures resemble photographs: depth of field, sharp reflections in reflections, bevels, and the table.
 #include "sensor/models/image_optics.hpp"
 
+#include "light/tabletop.hpp"
 #include "sensor/models/image.hpp"
 #include "sensor/models/image_stage.hpp"
 
@@ -137,26 +138,28 @@ TEST(ImageOptics, ABevelWidensAHighlight) {
 TEST(ImageOptics, TableUnderADome) {
   Sensor sensor = camera({dome(1.0)}, 21, 1, 0.5);
   sensor.pose = Pose{Vec3(0.0, 0.0, 1.0), Quat(0.0, 1.0, 0.0, 0.0)};
-  Tabletop::Settings settings;
-  settings.albedo = 0.4, settings.height = -0.2;
+  Table table;
+  table.height = -0.2, table.surface.albedo = 0.4;
   Targets targets;
   targets.add(box_target({0.1, 0.1, 0.1}), Pose(), {0.0, 0.0, 0.4});
+  targets.set_table(table);
   PathTracer::Setup setup;
   setup.samples = 64, setup.bounces = 0;
-  const Tabletop table(settings, 7);
-  setup.table = &table;
   const std::vector<double> row = by_column(targets, sensor, setup);
   EXPECT_EQ(row[10], 0.0);
   EXPECT_NEAR(row[0], 0.4, 0.03);  // the box hides a little of the dome
-  settings.mottle = 0.5;
-  const Tabletop patched(settings, 7), other(settings, 8);
+}
+
+TEST(ImageOptics, PatchesOfATableKeepItsMeanAndDifferByKey) {
+  Table table;
+  table.surface.albedo = 0.4, table.mottle = 0.5;
   double sum = 0.0, square = 0.0, apart = 0.0;
   constexpr int side = 200;
   for (int i = 0; i < side * side; ++i) {
     const Vec3 point(0.02 * (i % side), 0.02 * (i / side), 0.0);
-    const double albedo = patched.surface(point).albedo;
+    const double albedo = table_surface(table, point, 7).albedo;
     sum += albedo, square += albedo * albedo;
-    apart += std::abs(albedo - other.surface(point).albedo);
+    apart += std::abs(albedo - table_surface(table, point, 8).albedo);
     ASSERT_TRUE(albedo >= 0.2 && albedo <= 0.6);
   }
   constexpr double count = side * side;
