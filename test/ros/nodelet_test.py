@@ -87,7 +87,7 @@ class NodeletTest(NodeTestCase):
     def test_messages_are_documented(self):
         shown = run("rosmsg", "show", "-r", "bin_scenes/GenerateSceneFeedback").stdout + run(
             "rossrv", "show", "-r", "bin_scenes/PickPart").stdout
-        for word in ("wall time", "bin frame", "bit for bit"):
+        for word in ("wall-clock time", "bin frame", "bit for bit"):
             self.assertIn(word, shown)
 
 
