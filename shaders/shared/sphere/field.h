@@ -20,13 +20,13 @@ INLINE float value_in(IN(Cell) c) {
   return between(between(x0, x1, c.v), between(x2, x3, c.v), c.w);
 }
 
-// Outside the grid, returns a lower bound of the distance: the distance to the grid is added.
+// Returns `value` (m), or outside the grid a lower bound of the distance (m): at least padding + distance to the grid.
 INLINE float bounded(IN(Cell) c, float value, float padding) {
   float beyond = max(value, c.outside + padding);
   return c.outside > 0.0f ? beyond : value;
 }
 
-// Returns the distance (m, negative inside) and the direction in which it grows.
+// Returns the distance (m, negative inside) at a point in cell c; `gradient`: unit direction in which it grows.
 INLINE float distance_in(IN(Cell) c, float cell, float padding, IN(vec3) point, OUT(vec3) gradient) {
   float x0 = between(c.c0, c.c1, c.u), x1 = between(c.c2, c.c3, c.u);
   float x2 = between(c.c4, c.c5, c.u), x3 = between(c.c6, c.c7, c.u);
