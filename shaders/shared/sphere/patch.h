@@ -7,9 +7,9 @@
 //
 // Use: gather() for all contacts, close_patch(), spread() for all contacts, then both torques.
 struct Patch {
-  Real impulse;          // sum of the normal impulses of all contacts (N s)
-  Real3 center, normal;  // centre of the disk, from the centre of mass of a (m); unit normal of the disk
-  Real spin, tipping;    // rad/s, rotation of a relative to b about the normal, and perpendicular to it
+  Real impulse;            // sum of the normal impulses of all contacts (N s)
+  Real3 center, normal;    // centre of the disk, from the centre of mass of a (m); unit normal of the disk
+  Real spin, tipping;      // rad/s, rotation of a relative to b about the normal, and perpendicular to it
   Real3 tip_axis, across;  // unit axis of tipping, and unit direction in the disk perpendicular to it
   Real wide, wide_across;  // sums of normal impulse x squared distance of a contact (m2 N s): from the centre, and from
                            // the axis of tipping
