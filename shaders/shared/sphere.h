@@ -1,6 +1,6 @@
 // Data of the default solver `sphere` as shaders and C++ see it. Lengths are in m and axes are those of the world
 // unless stated otherwise. Indices of pairs and manifold slots count within their world, so that all regions of a world
-// can be moved together.
+// can be moved together. The size of a part is its diagonal, at most 50 times its thickness (sphere::Shape::size).
 #ifndef SHARED_SPHERE_H
 #define SHARED_SPHERE_H
 #include "shared/sphere/constants.h"
@@ -41,19 +41,19 @@
 #define BIND_SEEN 38
 #define BIND_TOUCHES 39
 
-#define SPHERE_JOB_GROUP 64         // invocations of a group that decides about pairs, one pair each
+#define SPHERE_JOB_GROUP 64         // number of invocations in a group of list_jobs; each of them processes one pair
 #ifndef SPHERE_PAIR_GROUP
-#define SPHERE_PAIR_GROUP 64        // invocations of a group that processes pairs (Capacity::pair_group)
+#define SPHERE_PAIR_GROUP 64        // number of invocations in a group that processes pairs (Capacity::pair_group)
 #endif
 #ifndef SPHERE_WORLD_GROUP
-#define SPHERE_WORLD_GROUP 64       // invocations of a group that processes a world (Capacity::world_group)
+#define SPHERE_WORLD_GROUP 64       // number of invocations in a group that processes a world (Capacity::world_group)
 #endif
-#define SPHERE_PREPARE_GROUP 64     // invocations of a group that prepares rows
-#define SPHERE_PREPARE_GROUPS 8u    // number of such groups per world
-#define SPHERE_GROUP_JOBS 16        // pairs after which a group ends: llvmpipe lets no invocation make more than 65,535
-                                    // iterations in all its loops together, and then silently ends each loop after one
-#define SPHERE_MAX_BODIES 384       // bodies of a world that one group can solve: their velocities fill 24 of 32 KiB of
-                                    // shared memory
+#define SPHERE_PREPARE_GROUP 64     // number of invocations in a group of the pass prepare_rows
+#define SPHERE_PREPARE_GROUPS 8u    // number of groups of prepare_rows for each world
+#define SPHERE_GROUP_JOBS 16        // number of pairs after which a group ends: on llvmpipe, an invocation has at most
+                                    // 65,535 iterations in all loops, and then each loop silently ends after one
+#define SPHERE_MAX_BODIES 384       // largest number of bodies of a world, which one group solves: their velocities
+                                    // fill 24 of 32 KiB of shared memory
 #define SPHERE_RIGID 2u             // index of rigid contacts in SphereSettingsBlock.softness; a probe uses them
 #define SPHERE_SLEEP_BY_ISLAND 0u  // values of SphereProgress.sleep, as in the enumeration Phase::Sleep
 #define SPHERE_SLEEP_BY_PART 1u
@@ -112,7 +112,7 @@
 #define SPHERE_ROW_OVERFLOW 4u
 #define SPHERE_SAMPLE_OVERFLOW 8u
 
-// SphereAsk.flags, as in WatchAsk (solver/world_watch.hpp). COUNTED: the host has read the counters of SphereProgress.
+// Bits of SphereAsk.flags, as in WatchAsk (solver/world_watch.hpp); COUNTED: counters of SphereProgress restart at 0.
 #define SPHERE_REST_ANEW 1u
 #define SPHERE_ENERGY_ANEW 2u
 #define SPHERE_DRIVEN 4u
@@ -214,7 +214,7 @@ struct SphereSeen {
 // loses.
 struct SphereWatched {
   vec4 still, still_rest, still_orientation;  // pose near which the body has stayed since it last moved (RestWatch)
-  vec4 before, before_rest;  // position at the last observation; before.w: kinetic energy (J); before_rest.w: m/s
+  vec4 before, before_rest;  // position at the last observation; before.w: kinetic energy (J); _rest.w: speed (m/s)
   vec4 least, least_rest;    // position when the energy of all bodies was lowest (m); least.w: kinetic energy of the
                              // body at that time (J); least_rest.w: its largest kinetic energy since then (J)
   vec4 audited;              // x: speed of the body's fastest point at the last observation (m/s); y: 1 if the members
@@ -355,8 +355,8 @@ struct SphereSample {
 
 // The point of such a sample, or of its edge, that is deepest in the other body.
 struct SphereTouch {
-  uint job;          // as in SphereSample
-  uint feature;      // as in SphereSample
+  uint job;          // index of the pair in the list of jobs
+  uint feature;      // number of the node or edge, with the bits SPHERE_SIDE_B and SPHERE_EDGE as in SphereSample
   float distance;    // distance of the point from the surface of the other body (m); negative inside
   uint unused;
   vec4 point;        // position in the frame of the other body (m)

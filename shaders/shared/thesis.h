@@ -33,7 +33,7 @@
 #define THESIS_GROUP 64           // number of invocations in a work group of the passes over spheres or bodies
 #define THESIS_BODY_GROUP 32      // number of invocations that add up the impulses of one body
 
-#define THESIS_NO_KEY 0xffffffffu  // empty slot of the neighbour table
+#define THESIS_NO_KEY 0xffffffffu  // key of an empty slot of a neighbour table
 #define THESIS_NODE 0x80000000u    // bit of a sphere index or key: it denotes a lattice node of a sheet, or the sheet
 
 // Bits of ThesisStatus.overflow: the list that was too short.

@@ -13,7 +13,7 @@ struct Capacity {
   std::size_t pairs = 4;            ///< initial room for pairs of bodies near each other, per body of a world
   std::size_t rows = 17;            ///< initial room for rows (SphereOrdered) of contacts, per body of a world
   std::size_t candidates = 4;       ///< initial room for candidates, and for samples near a part, per pair
-  std::size_t most_candidates = 0;  ///< largest number of these in a step; 0: what a quarter of `memory` can hold
+  std::size_t most_candidates = 0;  ///< largest length of these lists; 0: what a quarter of `memory` can hold
   std::size_t bodies = 0;           ///< expected number of bodies of a world; with more, fewer worlds run at once
   double memory = 1e9;              ///< bytes on the device for the worlds that run at the same time
   /// Largest number of bodies of a world; 0: as many as the device can hold, at most SPHERE_MAX_BODIES.
