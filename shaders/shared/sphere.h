@@ -69,7 +69,7 @@
 
 #define SPHERE_NO_COLOR 0xffffffffu  // color of a pair without contacts to solve
 
-#define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // index of the ground of a world, after all bodies
+#define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // index of the ground among the bodies of a world while it is solved
 
 // Flags of a manifold in SphereOrdered.kind.
 #define SPHERE_STRIKES 1u    // a contact of the manifold closes fast enough to bounce
@@ -147,8 +147,8 @@ struct SphereWorld {
   uvec4 bodies;   // index of the first body, number of bodies; in the buffer Near: number of words in a row of the
                   // neighbour bits, and index of their first word. The list of pairs follows them (sphere/listed.h)
   uvec4 pairs;    // index of the first pair, and number of pairs for which there is room; first plane, number of planes
-  uvec4 rows;     // first row and capacity; largest number of sweeps while an impact propagates: z in a step with an
-                  // impact, w otherwise
+  uvec4 rows;     // index of the first row, number of rows for which there is room; largest number of sweeps in a
+                  // sub-step until all contacts are solved: z in a step with an impact, w otherwise
   vec4 gravity;   // acceleration of gravity (m/s2); w: size of the smallest part (m)
   vec4 ground;    // friction and restitution of the bin, height of its walls (m), thickness of the thinnest part (m)
   vec4 tolerance; // m/s: a contact is solved when a sweep changes its speed by no more than this; x in a step without
@@ -188,7 +188,7 @@ struct SphereWorst {
   uint a, b;        // indices of the two bodies in the world; b may be SPHERE_GROUND
   float depth;      // depth of the overlap (m)
   float relative;   // depth / diagonal of the smaller part; 0: no contact
-  float ago;        // s since the start of the step with that contact
+  float ago;        // simulated time since the start of the step with that contact (s)
   uint unresolved;  // number of sub-steps whose sweeps ended before an impact was solved
   uint unused0, unused1;
 };
@@ -246,7 +246,7 @@ struct SphereState {
   vec4 spin;         // angular velocity (rad/s)
   vec4 still_position;     // position near which the body has stayed since it last moved (m); w: time spent there (s)
   vec4 still_orientation;  // orientation of the body at that position
-  vec4 position_rest, velocity_rest;  // the parts of position and velocity that single precision loses: add_exactly
+  vec4 position_rest, velocity_rest;  // remainders of position and velocity that single precision loses: add_exactly
   uvec4 flags;       // x: SPHERE_PRESENT etc.; y: label of the island; z: 1 if the body was inserted again; w: number
                      // of the last observation in which it had moved (world_watch.hpp)
 };
@@ -319,8 +319,8 @@ struct SphereContact {
   vec3 anchor_a;     // contact point on the surface of a, in the frame of a (m)
   uint feature;      // number of the sample, with the bits SPHERE_SIDE_B, SPHERE_EDGE and SPHERE_TURNED
   vec3 anchor_b;     // contact point on the surface of b, in the frame of b (m)
-  float approach;    // m/s, negative: the speed with which the surfaces meet if they do so in this step; prepare_rows
-                     // writes it
+  float approach;    // normal speed with which the surfaces meet if they meet in this step (m/s, negative if they
+                     // approach each other); prepare_rows computes it
   vec4 normal;       // unit normal from a to b, in the frame of the body whose field determined it
   vec4 force;        // force on b (N): x: normal force; yzw: friction force in world axes
 };

@@ -1,6 +1,6 @@
 // Data of the solver `thesis` as shaders and C++ see it. Lengths are in m, in world axes. Data that never changes
-// (Body, Shape, Sphere), data that the solver changes (State) and data that a step leaves behind (the rest) are
-// separate, so that saving a step means copying State only.
+// (Body, Shape, Sphere), data that the solver changes (State) and results of a step (the rest) are separate, so that
+// saving a step means copying State only.
 #ifndef SHARED_THESIS_H
 #define SHARED_THESIS_H
 #include "shared/types.h"

@@ -41,7 +41,7 @@ bool bid(SphereWorld world, uint p) {
 uint take_color(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
   uint key = key_of(world, pair), a = pair.a - world.bodies.x;
-  uint b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;  // in range: compilers read ahead of conditions
+  uint b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;  // a valid index: compilers may read it anyway
   bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
   if (a_moves && lowest_of(a) != key || b_moves && lowest_of(b) != key) return UNCOLORED;
   uvec2 used = uvec2(0u);

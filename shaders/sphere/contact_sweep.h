@@ -56,7 +56,7 @@ void apply_along(float impulse, vec3 normal, Moments m, inout Sides s) {
 // Solves the normal impulse of a contact; change: its change (N s); hit: a contact of the manifold closes fast, so that
 // it is recorded that this one has pressed. Returns whether there may be friction, which is 0 without normal impulse.
 bool solve_normal(uint at, uint stride, Row row, Give give, bool hit, out float change, inout Sides s) {
-  vec2 before = impulses[at];  // gap behind it
+  vec2 before = impulses[at];  // x: normal impulse, y: gap
   Moments moments = moments_of(row);
   float total = normal_impulse(before.x, speed_along(row.normal, moments, s), before.y, row.normal_mass, give);
   change = total - before.x;

@@ -1,5 +1,5 @@
 // The positions of the lists of pairs of a world in their buffers. Each world has two lists, one of this step and one
-// of the last step, which take turns. Needs the binding Ranges.
+// of the last step, which alternate. Needs the binding Ranges.
 
 // Returns the index of the first pair of a world's list; page: 0 or 1, which of the two lists.
 uint list_of(SphereWorld world, uint page) { return 2u * world.pairs.x + page * world.pairs.y; }

@@ -47,7 +47,7 @@ float length_squared(Side side, vec3 lever) { return side.inverse_mass > 0.0 ? d
 
 // Stores the row of a contact, and its force of the last step as impulse of a sub-step. Returns its approach (m/s).
 float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Sides s) {
-  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the field is a's
+  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the normal belongs to a
   Row row;
   row.ra = rotate(start_a.orientation, c.anchor_a);
   row.rb = rotate(start_b.orientation, c.anchor_b);
@@ -96,7 +96,7 @@ void prepare_manifold(uint o) {
     least_mass = min(least_mass, row.normal_mass);
     strikes = strikes || approach <= -settings.restitution_speed;
   }
-  bool rolls = is_ball(of.a) || is_ball(of.b);  // the point where a ball touches does not turn with it
+  bool rolls = is_ball(of.a) || is_ball(of.b);  // the contact point of a ball does not rotate with the ball
   if (restitution_of(of) > 0.0) m.kind |= SPHERE_RESTITUTES;
   if (strikes) m.kind |= SPHERE_STRIKES | (rolls ? 0u : SPHERE_REFRESHED);
   m.friction = friction_between(of);

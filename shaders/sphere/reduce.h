@@ -200,7 +200,7 @@ void write_contact(SphereWorld world, SpherePair pair, Placement a, Placement b)
   vec3 on_a = chosen_on_a[n].xyz, normal = chosen_normal[n];
   vec3 on_b = a.position + a.rotation * (on_a + chosen_on_a[n].w * normal);
   if (!ground) on_b = (on_b - b.position) * b.rotation;
-  // The normal turns with the body whose field it comes from.
+  // The normal is stored in the frame of the body whose field determined it, and rotates with this body.
   if ((feature & SPHERE_SIDE_B) == 0u) normal = ground ? a.rotation * normal : (a.rotation * normal) * b.rotation;
   uint at = SPHERE_MAX_CONTACTS * (world.pairs.x + pair.slot) + member, source = chosen_source[n];
   contacts[at].anchor_a = on_a;

@@ -23,7 +23,7 @@ struct Drift {
 };
 
 Drift drift_of(uint points, Placement at, uint over, Placement frame) {
-  float rest = time_step - plan.contact_time + plan.sub_step;  // the last sweeps look as far ahead as another one
+  float rest = time_step - plan.contact_time + plan.sub_step;  // the last sweeps look ahead by another sub-step
   vec3 v = vec3(0.0), w = vec3(0.0), frame_v = vec3(0.0), frame_w = vec3(0.0);
   vec3 fall = time_step * worlds[world_index].gravity.xyz;
   if (moves(points)) {

@@ -48,7 +48,7 @@ uint listed_edge(Samples samples, uint k) { return edge_word(samples.blocks.y, k
 // Returns the range of the list of edges near a point (body axes, m); listed_edge() reads its elements.
 Range edges_near(Samples samples, Field field, vec3 point) {
   if (field.ball > 0.0) return Range(0u, 0u);
-  vec3 g = clamp((point - field.origin) * field.inverse_cell, vec3(0.0), field.most);  // also of NaN
+  vec3 g = clamp((point - field.origin) * field.inverse_cell, vec3(0.0), field.most);  // limits NaN as well
   uvec3 block = min(uvec3(g), uvec3(field.most)) / SPHERE_EDGE_BLOCK;
   uint at = block.x + block.y * samples.blocks.z + block.z * samples.blocks.w;
   return Range(edge_word(samples.blocks.x, at), edge_word(samples.blocks.x, at + 1u));

@@ -6,7 +6,7 @@
 // equations. The rule conserves kinetic energy and |L|, both quadratic (Hairer, Lubich, Wanner 2006, IV.2). Only the
 // change is rotated to world axes: otherwise, rounding would change |L| by a thousandth in ten thousand sub-steps.
 vec3 gyrated(vec3 spin, vec4 orientation, SphereShape shape, float h) {
-  if (dot(spin, spin) * h * h < 1e-8) return spin;  // slower than 1e-4 rad a sub-step: the term is below rounding
+  if (dot(spin, spin) * h * h < 1e-8) return spin;  // below 1e-4 rad per sub-step, the term is smaller than rounding
   vec3 before = rotate(quat_conjugate(orientation), spin), change = vec3(0.0);
   for (int i = 0; i < 6; ++i) {
     vec3 mid = before + 0.5 * change, momentum = symmetric_times(shape.inertia.xyz, shape.inertia_mixed.xyz, mid);

@@ -184,7 +184,7 @@ void push_manifold(uint o, Give give, Manifold m, inout Sides s) {
   if (!(reach < m.slack)) all_may_press(o, m);
   uint left = near_of(m.kind), slides = 0u;  // one bit for each contact
   if (left == 0u) return;
-  uint first = row_of(m, left), done = left ^ left - 1u;  // contacts up to this one
+  uint first = row_of(m, left), done = left ^ left - 1u;  // done: bits of all contacts up to this one
   Row row = row_at(first, m.stride);
   bool first_slides = push_contact(o, first, row, give, reach, m, s);
   while ((left = near_of(m.kind) & ~done) != 0u) {

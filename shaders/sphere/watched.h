@@ -1,5 +1,5 @@
-// The record of a body that the watch of a world (solver/world_watch.hpp) keeps on the device: places since which
-// displacement is measured, and kinetic energy. Needs the bindings Bodies, States, Shapes and Watched, and
+// The record of a body that WorldWatch (solver/world_watch.hpp) stores on the device (SphereWatched): positions from
+// which displacement is measured, and kinetic energy. Needs the bindings Bodies, States, Shapes and Watched, and
 // sphere/body.h.
 
 bool is_watched(uint body) { return present(body) && bodies[body].material.x > 0.0; }

@@ -74,7 +74,7 @@ float separation_speed(ThesisContact contact, uint body, float left, float resti
   vec3 v = velocity_at(body, point);
   if ((contact.other.y & THESIS_NODE) == 0u) {
     v -= velocity_at(contact.other.y, point);
-    if (bodies[contact.other.y].inverse_inertia.w > 0.0) fall = vec3(0.0);  // both fall alike
+    if (bodies[contact.other.y].inverse_inertia.w > 0.0) fall = vec3(0.0);  // gravity accelerates both bodies equally
   }
   float approach = -dot(contact.normal.xyz, v - fall);
   bool rests = approach <= worlds[bodies[body].range.z].gravity.w;

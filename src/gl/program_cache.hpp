@@ -1,5 +1,5 @@
 /// Stores linked shader programs in the disk cache (core/cache.hpp) under a key of driver and source. If the driver
-/// refuses an entry, the program is compiled as without a cache.
+/// refuses an entry, the program is compiled from its source.
 #pragma once
 
 #include <string>

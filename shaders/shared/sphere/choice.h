@@ -4,8 +4,8 @@
 // selection does not alternate from step to step. `size` is that of the smaller part (m).
 
 const float TWIN = 1e-3f;    // share of `size`: candidates that are nearer to each other count as one contact
-const float ALIKE = 0.9f;    // cosine between the normals of two contacts of which one may inherit the force of the
-                             // other
+const float ALIKE = 0.9f;    // smallest cosine of the angle between the normals of a contact and a contact of the last
+                             // step whose force it inherits
 const float SOON = 1e-3f;    // share of `size`: a smaller gap may close before the contacts are found again
 const float STRIKE = 0.02f;  // share of the recycling limit: contacts of a pair that has moved farther, and
                              // that moves farther in this step, are found again; with 0.05, two of ten heaps of

@@ -108,7 +108,7 @@ INLINE Mask was_hit(Real approach, Mask pressed, Real gap, float sub_step, float
   return (approach <= -restitution_speed) AND(pressed OR(gap < -approach * sub_step));
 }
 
-// Newton's restitution: returns the impulse after which the separating speed is e times the approach speed.
+// Returns the normal impulse (N s) after which the separating speed is restitution x approach speed (Newton's law).
 INLINE Real bounced_impulse(Real before, Real speed, Real mass, Real restitution, Real approach) {
   return max(before - mass * (speed + restitution * approach), all_lanes(0.0f));
 }

@@ -46,7 +46,7 @@ INLINE bool descend(IN(Field) field, IN(Touch) p, IN(Touch) q, INOUT(Touch) touc
 // Finds the nearest points of the lines p + s u and r + t v, with w = p - r. Returns false if the lines are parallel to
 // within a degree: such edges are represented by their nodes. `uu`: squared length of u.
 INLINE bool nearest_points(IN(vec3) u, float uu, IN(vec3) v, IN(vec3) w, OUT(float) s, OUT(float) t) {
-  const float as_parallel = 3e-4f;  // square of the sine
+  const float as_parallel = 3e-4f;  // squared sine of the angle below which lines count as parallel
   float uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
   s = (uv * vw - vv * uw) / det;
   t = (uu * vw - uv * uw) / det;
@@ -80,7 +80,7 @@ INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float 
   return t * length_of(edge) >= -flush && (t - 1.0f) * length_of(edge) <= flush;
 }
 
-// Unit normals of the two faces that meet at a sharp edge.
+// Outward unit normals of the two faces that meet at a sharp edge.
 struct Faces {
   vec3 normal_1, normal_2;
 };
@@ -183,7 +183,7 @@ INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
 
 const uint OF_A_FACE = 0u, TO_AN_EDGE = 1u, BY_THE_FIELD = 2u;
 
-// A direction in which a point leaves a part: unit direction, and distance to the surface (m, negative inside).
+// An exit: a unit direction in which a point leaves a part, and its distance from the surface (m, negative inside).
 struct Exit {
   vec3 away;
   float distance;
@@ -212,7 +212,7 @@ LANE_LIST(Exit, exit_lists, SPHERE_MAX_EXITS)
 // Data that exits_at_edge() collects from the sharp edges beside a point.
 struct EdgesBeside {
   Exits faces;                                   // one exit for each face that meets an edge
-  MEMBER_LIST(float, to_edge, SPHERE_MAX_EXITS)  // m, from the point to the edge at which each face was found
+  MEMBER_LIST(float, to_edge, SPHERE_MAX_EXITS)  // distance (m) of the point from the edge where each face was found
   Exit outside;                                  // exit at the nearest edge, which is used if the point is outside
   float nearest;                                 // m, distance from the point to the nearest edge
 };

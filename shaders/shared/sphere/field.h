@@ -34,7 +34,7 @@ INLINE float distance_in(IN(Cell) c, float cell, float padding, IN(vec3) point, 
   float dx0 = between(c.c1 - c.c0, c.c3 - c.c2, c.v), dx1 = between(c.c5 - c.c4, c.c7 - c.c6, c.v);
   gradient = vec3(between(dx0, dx1, c.w), between(x1 - x0, x3 - x2, c.w), y1 - y0);
   float steep = length(gradient), from_center = length(point);
-  // On the medial axis, the slopes of both sides cancel. The exit is then away from the centre of mass.
+  // On the medial axis, the slopes of both sides cancel. The direction is then away from the centre of mass.
   if (steep > 1e-3f * cell)  // the gradient is not normalised yet: where the slope is 1, its length is one cell
     gradient /= steep;
   else if (from_center > 0.0f)

@@ -40,7 +40,7 @@ INLINE float distance_at(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, int i)
 
 // Returns whether the rim may touch a part around a point, from the distances (m) there and at both its neighbours.
 INLINE bool may_touch_rim(IN(Rim) rim, float before, float here, float after, float margin) {
-  // The point is nearest, or it is an end of a stretch in which the rim lies along a face.
+  // The distance has a minimum at the point, or the point is an end of a piece of the rim that lies along a face.
   bool nearest = here <= before && here <= after && (here < before || here < after);
   return nearest && here - rim.step_size < margin;
 }

@@ -22,8 +22,8 @@ INLINE void move_to_contact_time(bool of_a, IN(Ahead) a, IN(Ahead) b, INOUT(vec3
 }
 
 // Computes the lever arms of an impact for one common point, from the present centres of mass x and contact points. The
-// lever arms at mid-step would be wrong by up to half a step's displacement; an impact would rotate each body about a
-// different point and change their total angular momentum. Returns the vector between the two contact points.
+// lever arms of the contact time would be wrong by up to half a step's displacement: the impulses on both bodies would
+// act at different points and change the total angular momentum. Returns the vector from the point on a to that on b.
 INLINE vec3 levers_now(IN(vec3) x_a, IN(vec3) on_a, IN(vec3) x_b, IN(vec3) on_b, OUT(vec3) ra, OUT(vec3) rb) {
   vec3 between = on_b - on_a, center = on_a + 0.5f * between;
   ra = center - x_a;

@@ -4,8 +4,8 @@
 ///
 // clang-format off
 ///     shapes     | part 0: nodes, edges, clusters, field | part 1 | ...  shared by all worlds, never change
-///     bodies     | world 0 ............... | world 1 ...... | ...        states, tensors, boxes, ranges alike
-///     near       | world 0: bits, list     | world 1 ...... | ...        of bodies that may come near each other
+///     bodies     | world 0 ............... | world 1 ...... | ...        same layout: states, tensors, boxes, ranges
+///     near       | world 0: bits, list     | world 1 ...... | ...        of pairs of bodies that may come near
 ///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   pages alternate, sorted by (a, b)
 ///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it exists
 ///     contacts   | world 0: capacity slots | world 1 | ...              eight for each slot

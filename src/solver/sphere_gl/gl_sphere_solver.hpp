@@ -18,9 +18,9 @@ struct Capacity {
   double memory = 1e9;              ///< bytes on the device for the worlds that run at the same time
   /// Largest number of bodies of a world; 0: as many as the device can hold, at most SPHERE_MAX_BODIES.
   std::size_t group_bodies = 0;
-  /// Invocations that process a world together; 0: 64 on a software device, otherwise 256.
+  /// Number of invocations that process a world together; 0: 64 on a software device, otherwise 256.
   std::size_t world_group = 0;
-  /// Invocations that find the contacts of a pair; 0: 64 on a software device, otherwise 32.
+  /// Number of invocations in a work group that finds contacts; 0: 64 on a software device, otherwise 32.
   std::size_t pair_group = 0;
   /// Whether a software device uses the group sizes and limits of a graphics card, as test/meter does.
   bool as_on_card = false;
@@ -31,8 +31,8 @@ struct Capacity {
 /// (docs/develop/gpu.md, "Limits"). A group of 160 such bodies is correct.
 constexpr std::size_t software_group_bodies = 192;
 
-/// Returns how many worlds fit into memory. Because lists grow, none may exceed half of the driver's limit for a
-/// buffer. The result is at most 1,024, and 4 on a software device.
+/// Returns how many worlds fit into memory. Because lists grow, no list may exceed half of `storage_bytes`, which is the
+/// driver's limit for a buffer. The result is at most 1,024, and 4 on a software device.
 std::size_t worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software);
 }  // namespace sphere_gl
 

@@ -62,7 +62,7 @@ Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& se
 /// Resizes the arrays of the results of a step to the sizes of the buffers on the device.
 void size_scratch(Memory& memory);
 
-/// Returns the size (bytes) of the largest buffer that a world needs, by which a batch is divided.
+/// Returns the size (bytes) of the largest buffer that a world needs; it limits the number of worlds in a batch.
 std::size_t largest_buffer(const World& world, const ThesisSettings& settings, const Capacity& capacity);
 
 }  // namespace bin_scenes::thesis
