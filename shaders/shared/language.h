@@ -1,6 +1,6 @@
-// Names for what GLSL and C++ write differently. The code in shaders/shared is compiled as both languages. It therefore
-// writes the suffix f behind floating-point numbers, does not use the components of vectors, and reads the data of a
-// part through functions that each side provides. C++ code includes this header within a namespace that contains the
+// Names for constructs that GLSL and C++ write differently. The code in shaders/shared is compiled as both languages.
+// It therefore writes the suffix f behind floating-point numbers, does not use components of vectors, and reads parts
+// through functions that each side provides. C++ code includes this header within a namespace that contains the
 // names listed below; its vectors are Eigen's.
 #ifndef SHARED_LANGUAGE_H
 #define SHARED_LANGUAGE_H

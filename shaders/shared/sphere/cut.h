@@ -7,7 +7,7 @@ const float TURN_OF_A_CUT = 0.1f;  // rad: largest rotation in a shortened step,
                                    // angular momentum of a tumbling part
 const float MOST_CUTS = 64.0f;     // largest number of shortened steps for one step
 
-// Returns the number of shorter steps into which a step is divided, so that motion and rotation stay below their limits.
+// Returns the number of shorter steps into which a step is divided, so that motion and rotation stay within limits.
 // distance (m), turn (rad): largest ones in the undivided step; thinnest: thickness of the thinnest part (m).
 INLINE uint cuts_of(float distance, float turn, float thinnest) {
   float cuts = max(1.0f, distance / (LONGEST_MOVE * thinnest));

@@ -57,7 +57,7 @@ INLINE bool nearest_points(IN(vec3) u, float uu, IN(vec3) v, IN(vec3) w, OUT(flo
 INLINE bool presses_between(IN(Edge) edge, IN(vec3) normal, IN(vec3) away) {
   const float least_along = 0.3f;  // smallest component of the normal along `away`: the normal may be tilted, but not
                                    // to the other side
-  const float most_beyond = 0.1f;  // largest component of the normal beyond the faces of the edge: 6 degrees
+  const float most_beyond = 0.1f;  // largest component of the normal along a bound of the edge's cone: 6 degrees
   if (dot(normal, away) < least_along) return false;
   return bounds_of(edge.cone) == 0u ||
          max(dot(normal, bound_at(edge.cone, 0u)), dot(normal, bound_at(edge.cone, 1u))) <= most_beyond;

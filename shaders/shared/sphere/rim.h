@@ -49,7 +49,7 @@ INLINE bool may_touch_rim(IN(Rim) rim, float before, float here, float after, fl
 // distance and gradient of the part's field there (part frame). Returns whether the rim can press there.
 INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) rotation, int i, INOUT(float) t,
                       INOUT(Touch) touch) {
-  const float least_out = -0.1f;  // the exit from the rim points up, off the wall, or between both
+  const float least_out = -0.1f;  // smallest component, along up and along the wall's normal, of a direction out of it
   float lower = rim.step_size * float(i - 1), upper = rim.step_size * float(i + 1);
   for (int turn = 0; turn < RIM_ROUNDS; ++turn) {
     float t0 = lower + (upper - lower) / 3.0f, t1 = upper - (upper - lower) / 3.0f;

@@ -31,7 +31,7 @@ struct Capacity {
 /// (docs/develop/gpu.md, "Limits"). A group of 160 such bodies is correct.
 constexpr std::size_t software_group_bodies = 192;
 
-/// Returns how many worlds fit into memory. Because lists grow, no list may exceed half of `storage_bytes`, which is the
+/// Returns how many worlds fit into memory. Because lists grow, no list may exceed half of `storage_bytes`, the
 /// driver's limit for a buffer. The result is at most 1,024, and 4 on a software device.
 std::size_t worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software);
 }  // namespace sphere_gl
