@@ -16,7 +16,7 @@ struct Contained {
 
 struct ContainedLimits {
   unsigned cpu_seconds = 60;  ///< limit on processor time, which a busy machine does not change as it changes wall time
-  std::size_t bytes = std::size_t{4} << 30;  ///< memory beside what the parent has
+  std::size_t bytes = std::size_t{4} << 30;  ///< limit on memory in addition to the parent's
 };
 
 /// Runs `work` in a child process. `work` must throw nothing but std::bad_alloc and use nothing but memory and files,

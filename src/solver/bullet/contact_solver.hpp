@@ -25,7 +25,7 @@
 
 namespace bin_scenes::bullet {
 
-/// The effect of a step on a body in contact. The world attaches it to btRigidBody's user pointer.
+/// Data of a body from the start to the end of a step (dynamics_world.hpp); btRigidBody's user pointer points to it.
 struct Motion;
 
 ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintSolver {
@@ -36,23 +36,23 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   /// tremble, and so do ten rings.
   static constexpr int sweeps = 2;
 
-  /// Flags and numbers of btContactSolverInfo this solver is written for; m_numIterations is the number of sub-steps.
+  /// Sets flags and numbers of btContactSolverInfo for this solver; m_numIterations is the number of sub-steps.
   static void configure(btContactSolverInfo & info);
 
-  /// Radius (units) of contact at a point or along a line: such a contact is a patch that resists spin and rolling.
+  /// Radius (units) of the patch of a contact at a point or along a line; the patch resists spin and rolling.
   btScalar patch_radius = 0;
 
   std::uint64_t rows = 0;  ///< contacts solved since construction, a counter for the profile
 
-  /// Deepest contact of all steps, by the diagonals (units) of bodies, which are numbered by getUserIndex2().
+  /// Contact of all steps with the largest depth / smaller diagonal (units). Bodies are numbered by getUserIndex2().
   struct Deepest {
     int a = -1, b = -1;
-    btScalar depth = 0, relative = 0;  ///< units; / smaller diagonal
-    double time = 0;                   ///< s, by `clock`
+    btScalar depth = 0, relative = 0;  ///< units; depth / smaller diagonal
+    double time = 0;                   ///< s, value of `clock` in that step
     std::uint64_t unresolved_impacts = 0;
   };
   std::vector<btScalar> diagonals;
-  double clock = 0;  ///< s simulated, kept by the world
+  double clock = 0;  ///< s of simulated time, advanced by the world
   Deepest deepest;
 
  protected:
@@ -64,23 +64,23 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
  private:
   struct Contact {
     btVector3 place;    ///< position of the contact, from the centre of mass of its first body
-    btScalar distance;  ///< distance at the time of detection
-    btScalar approach;  ///< normal velocity before its first push, negative
+    btScalar distance;  ///< distance at the time of detection (units)
+    btScalar approach;  ///< normal velocity before the first push (units/s), negative
     bool pushed;
-    btScalar lasting;  ///< normal impulse that the sub-step began with
+    btScalar lasting;  ///< normal impulse at the start of the sub-step
   };
-  /// Displacement and turn of a solver body from where it was at detection.
+  /// Displacement and rotation of a solver body since the contacts were detected.
   struct Displacement {
     btVector3 moved{0, 0, 0}, turned{0, 0, 0};
     bool touches = false;
   };
 
-  /// Push-out of a sub-step: share of the overlap turned into speed (1/s), and of mass and impulse that act.
+  /// Push-out in a sub-step: ratio of speed to overlap (1/s), and the shares of mass and impulse that act.
   struct Soft {
     btScalar rate, mass_share, impulse_share;
   };
 
-  /// Pushing lets overlap out; relaxing takes back the velocity that this left.
+  /// Pushing removes overlap; relaxing removes the velocity that this has added.
   enum class Sweep { first_push, push, relax };
 
   void note_depth(const btPersistentManifold& manifold);
@@ -98,7 +98,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   void hand_over();
 
   std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
-  std::vector<int> blocks_;        ///< first contact of each run between the same two bodies, and their count
+  std::vector<int> blocks_;        ///< by pair of bodies: its first contact; at the end, the number of contacts
   std::vector<char> unconverged_, were_unconverged_;  ///< by body: whether one of its contacts has not converged, in
                                                       ///< this sweep and in the previous one
   std::vector<Displacement> displacements_;           ///< parallel to m_tmpSolverBodyPool

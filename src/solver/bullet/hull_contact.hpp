@@ -29,7 +29,7 @@ class HullContact : public btActivatingCollisionAlgorithm {
     if (manifold_ && own_manifold_) manifolds.push_back(manifold_);
   }
 
-  /// Makes Bullet use it for every pair of a hull with a hull, a sphere or a triangle.
+  /// Makes Bullet use this class for every pair of a hull with a hull, a sphere or a triangle.
   struct Factory : public btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,
