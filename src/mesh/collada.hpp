@@ -9,7 +9,7 @@ namespace bin_scenes::collada {
 
 struct Asset {
   std::optional<double> metres_per_unit;
-  std::string up_axis = "Y_UP";  ///< the standard's default
+  std::string up_axis = "Y_UP";  ///< axis that points up; the default is that of the standard
 };
 
 /// Returns unit and up axis of the document.

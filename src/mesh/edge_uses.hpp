@@ -13,10 +13,10 @@ namespace bin_scenes::repair {
 
 /// The use of an edge by one triangle. In a sorted list, all uses of an edge are adjacent.
 struct EdgeUse {
-  std::uint32_t low, high;  // vertices, ascending
+  std::uint32_t low, high;  // indices of the vertices, ascending
   std::uint32_t triangle;
-  std::uint8_t corner;  // the edge runs from this corner to the next
-  bool forward;         // from low to high
+  std::uint8_t corner;  // the edge runs from this corner of the triangle to the next
+  bool forward;         // whether it runs from low to high
   bool operator<(const EdgeUse& o) const {
     return std::tie(low, high, triangle, corner) < std::tie(o.low, o.high, o.triangle, o.corner);
   }

@@ -11,7 +11,7 @@ namespace bin_scenes::repair {
 /// Merges vertices closer than `tolerance` into the first of them, and removes unused vertices and the triangles that
 /// collapse to an edge. The neighbours of such a triangle meet each other afterwards: no hole opens.
 struct Welded {
-  std::size_t vertices = 0, triangles = 0;  ///< number that was removed
+  std::size_t vertices = 0, triangles = 0;  ///< numbers of those that were removed
 };
 Welded weld(Mesh& mesh, double tolerance);
 

@@ -30,8 +30,8 @@ struct Moments {
   std::array<double, 10> cubic{};  // integral of (n . r)(x . r)^2 as a polynomial in r, see cubic_form
 };
 
-/// The expansion replaces the triangles of a node at this many times `reach` or more. Its error is at most 3e-3 (3e-4
-/// r.m.s.), which is far from changing "> 0.5".
+/// The expansion replaces the triangles of a node for points at least this many times `reach` away. Its error is at
+/// most 3e-3 (3e-4 r.m.s.), far too small to change the result of "> 0.5".
 constexpr double far_ratio = 3.0;
 
 inline double cubic_form(const std::array<double, 10>& c, const Vec3& r) {
@@ -84,7 +84,7 @@ inline Moments moments_of(const std::vector<Corner>& corners, std::size_t begin,
 /// for all instead of one each.
 class SolidAngles {
  public:
-  /// Adds a triangle: tangent of half its angle (van Oosterom & Strackee 1983, "The solid angle of a plane triangle").
+  /// Adds a triangle, seen from p (van Oosterom & Strackee 1983, "The solid angle of a plane triangle").
   void add(const Corner& t, const Vec3& p) {
     const Vec3 a = t.a - p, b = a + t.ab, c = a + t.ac;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();

@@ -75,7 +75,7 @@ class HeapCore final : private HeapView {
   enum class Place { waiting, in, escaped, no_room, removed };
   enum class Course { ahead, moving, over };  ///< state of the prescribed motions
 
-  /// Takes the worst contact of the world since the last call from the solver.
+  /// Asks the solver for the worst contact of the world since the last call, and records it.
   void note_worst();
   void make_world(bool raised_walls, const std::vector<std::size_t>& lifted = {});  ///< lifted bodies get a large mass
   void remake_world(const std::vector<std::size_t>& lifted, const std::vector<bool>& woken);

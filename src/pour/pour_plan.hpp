@@ -1,5 +1,5 @@
-/// What a request asks to be poured: parts, opening and limits. It is checked and computed once for all scenes of the
-/// request.
+/// The plan of a pour, which follows from a request: parts, opening and limits. It is checked and computed once for all
+/// scenes of the request.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

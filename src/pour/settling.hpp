@@ -121,10 +121,10 @@ class Settling {
   double advanced_ = 0.0;                           ///< s: time of the last advance()
   int checks_ = 0;                                  ///< number of times that probe or verify began
   int rechecks_ = 0;                                ///< number of times that recheck began since the last of these
-  double poured_ = 0.0;                             ///< s: end of the pour
+  double poured_ = 0.0;                             ///< s: time at which the pour ended
   double checked_s_ = 0.0;
   bool gave_up_ = false;
-  double friction_ = 1.0;  ///< share of friction that holds; never rises again
+  double friction_ = 1.0;  ///< share of the coefficients of friction that acts; never rises again
 };
 
 }  // namespace bin_scenes

@@ -16,7 +16,7 @@ struct Crossing {
   std::array<std::size_t, 2> triangles = {0, 0};  ///< indices of one triangle of a and one of b
 };
 
-/// Returns the common segment of two triangles; none if they are apart or coplanar; then their neighbours intersect.
+/// Returns the common segment of two triangles; none if they are apart, or coplanar (then their neighbours intersect).
 std::optional<Crossing> crossing(const Facet& s, const Facet& t, double tolerance);
 
 /// Returns the crossings of all triangles of a with all triangles of b, in the frame of a; `b_in_a`: pose of b there.

@@ -1,20 +1,20 @@
-/// Contacts of one island, solved in sub-steps: Bullet finds them (one collision detection a step) and lays out their
-/// rows; this class replaces its sweeps and the integration of what touches.
+/// Contacts of one island, solved in sub-steps: Bullet finds them (one collision detection per step) and sets up their
+/// rows; this class replaces Bullet's sweeps, and its integration of bodies in contact.
 ///
 ///   for each sub-step h:  gravity -> warm start -> sweeps with soft push-out -> move -> sweeps without (relaxation)
 ///   at the end of the step: rebound
 ///
-/// Separations follow the bodies between detections through the rows' own Jacobians. Small steps beat many sweeps of
-/// one large step: load runs through a stack of ten in a few steps (Macklin et al. 2019, "Small steps in physics
-/// simulation"); soft push-out with relaxation lets overlap out without leaving speed behind (Catto 2024, "Solver2D").
-/// Bullet's own sweeps, tried first with 20 to 200 iterations at 240 to 1000 Hz, let a stack of ten boxes sway and
-/// fall.
+/// Between detections, separations are updated with the Jacobians of the rows. Many small steps converge better than
+/// many sweeps of one large step: loads propagate through a stack of ten in a few steps (Macklin et al. 2019, "Small
+/// steps in physics simulation"). Soft push-out with relaxation removes overlap without adding speed (Catto 2024,
+/// "Solver2D"). With Bullet's own sweeps, of which 20 to 200 iterations at 240 to 1000 Hz were tried, a stack of ten
+/// boxes sways and falls.
 ///
-/// Contacts that press within a small patch of each other resist turns as a patch does, as in the sphere solver
+/// Contacts that press within a small patch of each other resist rotation together, as in the sphere solver
 /// (src/solver/sphere/passes/solve.cpp, resist_turn).
 ///
-/// Friction is a cone: both tangential impulses of a contact are limited together. A rebound starts at e times the
-/// speed of approach just before the contact first pushed.
+/// Friction is a cone: both tangential impulses of a contact are limited together. The initial speed of a rebound is
+/// the restitution times the approach speed just before the contact first pushed.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -32,8 +32,8 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
-  /// Number of sweeps of a sub-step before bodies move, and again after. With one sweep, three cubes on each other
-  /// tremble, and so do ten rings.
+  /// Number of sweeps of a sub-step before bodies move, and again after. With one sweep, stacks of three cubes and of
+  /// ten rings tremble.
   static constexpr int sweeps = 2;
 
   /// Sets flags and numbers of btContactSolverInfo for this solver; m_numIterations is the number of sub-steps.
@@ -63,7 +63,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
  private:
   struct Contact {
-    btVector3 place;    ///< position of the contact, from the centre of mass of its first body
+    btVector3 place;    ///< position of the contact, from the centre of mass of its first body (units)
     btScalar distance;  ///< distance at the time of detection (units)
     btScalar approach;  ///< normal velocity before the first push (units/s), negative
     bool pushed;
@@ -97,11 +97,11 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   void rebound(const btContactSolverInfo& info);
   void hand_over();
 
-  std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
+  std::vector<Contact> contacts_;  ///< indexed like m_tmpSolverContactConstraintPool
   std::vector<int> blocks_;        ///< by pair of bodies: its first contact; at the end, the number of contacts
   std::vector<char> unconverged_, were_unconverged_;  ///< by body: whether one of its contacts has not converged, in
                                                       ///< this sweep and in the previous one
-  std::vector<Displacement> displacements_;           ///< parallel to m_tmpSolverBodyPool
+  std::vector<Displacement> displacements_;           ///< indexed like m_tmpSolverBodyPool
 };
 
 }  // namespace bin_scenes::bullet

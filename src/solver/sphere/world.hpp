@@ -33,8 +33,8 @@ using Sleep = Phase::Sleep;
 ///
 /// The effect of each was measured without it (bench/ablation.cpp), by another number or by one of the switches below.
 struct Settings {
-  float time_step = 1.0f / 400;  ///< duration of a step, with one collision detection
-  bool cut_steps = true;         ///< shorter steps for small and for fast parts
+  float time_step = 1.0f / 400;  ///< s: duration of a step, with one collision detection
+  bool cut_steps = true;         ///< whether steps are shortened for small and for fast parts
   /// Number of sub-steps of a step. The stiffness of contacts grows with its square. The default of 4 is for tests that
   /// build a World themselves: make_world() sets the number of the request, 2 by default.
   int sub_steps = 4;
@@ -42,8 +42,8 @@ struct Settings {
   float tolerance = 0.1f;  ///< d per second: a contact whose speed changes by more in a sweep has not converged; if
                            ///< larger, an impact in a wedge or a chain adds energy
   int sharing_sweeps = 12;  ///< largest number of sweeps until contacts converge; if smaller, impacts add energy too
-  int impact_sweeps = 24;   ///< the same in a step with an impact, times heaviest / lightest part; with half as many,
-                            ///< one light part under another of 100 times its mass leaves at 7 % of the impact's speed
+  int impact_sweeps = 24;   ///< most sweeps in a step with an impact, times heaviest / lightest part; with half as
+                            ///< many, a light part under one of 100 times its mass leaves at 7 % of the impact's speed
   int most_impact_sweeps = 2400;  ///< limit of these sweeps for any masses; at a ratio of 1:10,000 no number suffices
   /// Worlds with more bodies do not repeat sweeps for an impact, but leave it to the next sub-steps: a heap that is
   /// poured always has an impact, which soon spreads among many parts, and the sweeps would cost 10 % of its time.
@@ -51,13 +51,13 @@ struct Settings {
   /// m/s: replaces `tolerance` in steps with an impact, for worlds that solve impacts exactly. If it is larger, a
   /// symmetric impact leaves a hundredth of its speed sideways.
   float exact_tolerance = 1e-4f;
-  int exact_sweeps = 60;  ///< largest number of sweeps to reach it, times heaviest / lightest part
+  int exact_sweeps = 60;  ///< largest number of sweeps to reach exact_tolerance, times heaviest / lightest part
   int cold_sweeps = 4;    ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
   int cold_steps = 50;    ///< number of such steps; with 0, a part under one of a thousand times its mass never rests
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
   // World::effort multiplies the work on contacts. It is the largest of four bounds, each 1 in an ordinary bin.
-  float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; work grows linearly beyond;
-                                 ///< higher = parts deep in a bin never rest: loads travel about one layer a sweep
+  float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; beyond, work grows linearly;
+                                 ///< higher = parts deep in a bin never rest: loads propagate by a layer per sweep
   float thin_part_sag = 0.024f;  ///< static sag that the default work allows: layers x gravity x (sub-step)^2 /
                                  ///< thickness of the thinnest part; higher = thin parts sink into each other
   float loaded_part_sag = 0.1f;  ///< the same sag, for each part under the load above it; higher = light parts sink in
@@ -67,24 +67,24 @@ struct Settings {
   float max_mass_effort = 16;    ///< largest factor on the number of sweeps for unequal masses
   float tower_effort = 0.16f;    ///< effort of a tower of n parts / n^1.5; lower = twenty cubes sway and never rest
   float max_tower_effort = 60;   ///< largest effort of a tower, of about 50 parts; higher = piles of sheets cost more
-  Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< while parts move: damps rocking
-  Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< while the heap is pressed: leaves no overlap
-  /// While the heap is probed: no compliance; 1/160 of the overlap is removed in a sub-step. Stiff contacts press
-  /// neighbours apart, and parts squeezed like this are held by friction that another engine will not find.
+  Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< compliance while parts move; damps rocking
+  Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< compliance while the heap is pressed; leaves no overlap
+  /// Compliance while the heap is probed: none; a sub-step removes 1/160 of the overlap. Stiff contacts would press
+  /// neighbours apart, and parts squeezed like this are held by friction that another engine does not find.
   Softness rigid{1.0f, 500.0f, 0.0f, 4};
   float patch_radius = 1e-3f;  ///< d: radius of the patch of a point or line contact; resists spin and rolling.
                                ///< 0 = a part held at two points swings forever; higher = wheels stop
   float push_speed = 4.0f;  ///< d per second, / refinement: largest speed that removes overlap; higher = parts pop out
   float margin = 4e-3f;     ///< d: contacts are found up to this distance plus the displacement in one step; with half
                             ///< of it, a spike between others is thrown up by a hundredth of the height it fell
-  float recycle = 1e-3f;    ///< d: contacts of a pair are reused until it has moved this far
+  float recycle = 1e-3f;    ///< d: contacts of a pair are reused until its relative pose has changed by this much
   float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where less precision is needed
   /// s: duration without friction at the start of a probe, while normal forces are found. If it is longer, the heap is
   /// shaken; if it is shorter, wedged parts hold that would slip in another engine.
   float probe_slip = 2.5e-3f;
   float restitution_speed = 0.05f;  ///< m/s: slower impacts do not bounce
   float rest_window = 0.1f;         ///< s: a body sleeps after staying within rest_move for this time
-  float rest_move = 1e-4f;          ///< d: largest move of a body that may sleep
+  float rest_move = 1e-4f;          ///< d: largest displacement of a body that may sleep
   float touch_move = 5e-4f;  ///< d: the same for Sleep::by_touch, and the displacement at which a body wakes others;
                              ///< less = a pick wakes more of the heap, more = creeping parts are frozen
 
@@ -93,7 +93,7 @@ struct Settings {
   bool speculation = true;            ///< contacts that may close in a step are found before they do
   bool soonest_first = true;          ///< contacts of a pair that are about to close have priority over others
   bool way_back = true;               ///< samples deep inside a part leave it through the face by which they entered
-  bool poses_at_contact_time = true;  ///< contacts are found at the poses at StepPlan::contact_time
+  bool poses_at_contact_time = true;  ///< contacts are found at the poses predicted for StepPlan::contact_time
   bool relaxation = true;             ///< sweeps that remove the velocity which the removal of overlap has added
   bool friction_reserve = true;       ///< stages of settling may reduce friction (Phase::friction)
   bool gyroscopic = true;             ///< gyroscopic torque of spinning parts with unequal moments of inertia
@@ -131,16 +131,16 @@ constexpr std::uint32_t ground = SPHERE_GROUND;  ///< body index of the bin's wa
 
 /// One contact point of a manifold. Anchors are in body frames, so that a recycled contact follows both bodies.
 struct Contact {
-  Vec3f anchor_a = Vec3f::Zero(), anchor_b = Vec3f::Zero();  ///< on the surfaces of a and b (body frames)
+  Vec3f anchor_a = Vec3f::Zero(), anchor_b = Vec3f::Zero();  ///< points on the surfaces of a and b (m, body frames)
   Vec3f local_normal = Vec3f::Zero();  ///< unit normal from a to b, in the frame of the body whose field gave it
   std::uint32_t feature = 0;  ///< bit 31: sample of b against field of a; bit 30: edge; rest: node, edge or plane
-  float normal_force = 0;     ///< N; not an impulse, because the next sub-step may have another length
+  float normal_force = 0;     ///< N; a force and not an impulse, because the next sub-step may have another length
   Vec3f friction_force = Vec3f::Zero();  ///< N, force on b, world frame
   Vec3f normal = Vec3f::Zero();          ///< from a to b in the last solve, world frame
 };
 
 struct Manifold {
-  std::uint32_t a = 0, b = 0;  ///< a < b; b may be ground
+  std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b; b may be ground
   int color = 0;
   float friction = 0, restitution = 0;
   // Relative pose at which the contacts were found, for recycling; for a contact with the ground, the pose of a.
@@ -148,7 +148,7 @@ struct Manifold {
   Quatf found_q = Quatf::Identity();
   bool found = false;
   float depth = 0;                ///< m: largest depth of its contacts at the start of the step, if the step solves it
-  std::vector<Contact> contacts;  ///< at most max_contacts; carrying a manifold over moves only the vector's handle
+  std::vector<Contact> contacts;  ///< at most max_contacts; carrying a manifold to the next step does not copy them
 };
 
 /// The boundary of a half-space that bodies may not enter: a wall, up to World::wall_top, or the unbounded floor.
@@ -158,11 +158,11 @@ struct Plane {
   bool wall = false;
 };
 
-/// Jaws as the passes use them: driven bodies with this mass each, whose closing speed is reduced by their contacts.
+/// Jaws in the form that the passes use: driven bodies, whose common closing speed is reduced by their contacts.
 struct JawPair {
-  std::uint32_t first = 0, second = 0;
-  Vec3f axis = Vec3f::UnitX(), velocity = Vec3f::Zero();
-  float force = 0, speed = 0, mass = 0;
+  std::uint32_t first = 0, second = 0;                    ///< indices of the two bodies
+  Vec3f axis = Vec3f::UnitX(), velocity = Vec3f::Zero();  ///< unit vector; velocity of the hand (m/s)
+  float force = 0, speed = 0, mass = 0;                   ///< of each jaw: N, largest closing speed (m/s), kg
 };
 
 /// A force that acts on a body in addition to gravity.
@@ -225,18 +225,18 @@ struct World {
   Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake
   float friction_share = 1;               ///< share of the coefficients of friction that acts
   bool exact_impacts = true;              ///< WorldDef::exact_impacts
-  bool forgets = false;                   ///< the next step starts without remembered forces
+  bool forgets = false;                   ///< whether the next step starts without remembered forces
   std::optional<JawPair> jaws;            ///< Solver::set_jaws()
   std::vector<Pull> pulls;                ///< Solver::set_force()
-  int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
+  int cold_steps = 0;                     ///< number of remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on the number of sub-steps or sweeps (effort.hpp)
   float mass_ratio = 1;                   ///< mass of the heaviest part / mass of the lightest part
-  int mass_effort = 1;                    ///< smallest factor on sweeps of soft and stiff contacts, for unequal masses
+  int mass_effort = 1;                    ///< lower bound of the factor on the number of sweeps, for unequal masses
   float smallest_size = 0, least_thickness = 0, thinnest = 0;  ///< m: smallest Shape::size, thickness and wall
   float whole_step = 0;                                        ///< s: Settings::time_step while no part is fast
   int cuts = 1;  ///< number of steps for one time step of the request; more than 1 for small parts
 
-  std::vector<Manifold> manifolds, previous;  ///< sorted by (a, b)
+  std::vector<Manifold> manifolds, previous;  ///< of this step and of the last one, sorted by (a, b)
   std::vector<std::uint32_t> order;           ///< manifolds to solve, by color, those with most contacts first
   Counters counters;
   Spent spent;

@@ -13,10 +13,10 @@ namespace bin_scenes::sphere {
 
 /// A point where two surfaces are close, before reduction. All vectors are in the frame of body a.
 struct Candidate {
-  Vec3f on_a, on_b;  ///< nearest points of both surfaces (m)
-  Vec3f normal;      ///< unit normal, from a to b
-  float separation;
-  std::uint32_t feature;
+  Vec3f on_a, on_b;       ///< nearest points of both surfaces (m)
+  Vec3f normal;           ///< unit normal, from a to b
+  float separation;       ///< m along the normal, negative if the surfaces overlap
+  std::uint32_t feature;  ///< Contact::feature
 };
 using Candidates = std::vector<Candidate>;
 

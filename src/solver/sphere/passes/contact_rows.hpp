@@ -52,7 +52,7 @@ struct ContactRows {
   Lanes max_impulse{}, gap{};  ///< largest normal impulse (N s); distance when last computed (m)
 };
 
-using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< indices within their block
+using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< indices of bodies within their block
 
 /// Eight manifolds of one color. In unused lanes, both bodies are the ground.
 struct Bundle {

@@ -1,5 +1,5 @@
-/// The effects of a gripper in the solve of a block: jaws that stay on their axis, and the pull of a vacuum. It is used
-/// while a grasp is proved, and costs nothing in other scenes.
+/// The effects of a gripper in the solve of a block: jaws that stay on their axis, and the pull of a vacuum. This code
+/// runs only while a grasp is proved, and costs nothing in other scenes.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"

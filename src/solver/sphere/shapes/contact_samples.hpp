@@ -60,9 +60,9 @@ struct Samples {
 // If nodes on edges were farther apart, they could not represent the edges: these belong to a curved face.
 constexpr double longest_edge_piece = 0.03, edge_share = 0.5;  // share of d; share of the nodes
 
-/// Makes about `count` nodes: half of them on sharp edges if there are any, the others on faces. `folds`: folds_of()
-/// the part's mesh, by an angle of at most `sharp_angle` (rad). Long edges that are not sharp get nodes if they
-/// protrude between the other nodes by more than `ridge` (share of d).
+/// Makes about `count` nodes: half of them on sharp edges if there are any, the others on faces. `folds`: result of
+/// folds_of() for the part's mesh, with an angle of at most `sharp_angle` (rad). Long edges that are not sharp get
+/// nodes if they protrude between the other nodes by more than `ridge` (share of d).
 Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle,
                      double ridge);
 

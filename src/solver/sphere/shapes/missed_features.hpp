@@ -1,5 +1,5 @@
-/// Finds features between the nodes of a draft that protrude, so that no node would detect a contact there.
-/// contact_samples.cpp then adds nodes.
+/// Finds features that protrude between the nodes of a draft, where no node would detect a contact, and adds nodes to
+/// the draft there. contact_samples.cpp uses it.
 #pragma once
 
 #include "solver/sphere/shapes/sample_draft.hpp"

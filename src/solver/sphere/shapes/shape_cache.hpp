@@ -25,7 +25,7 @@ class ShapeCache {
     Entry& entry = entries_[part.get()];
     if (!entry.shape) {
       StageTimer timer(profile, "shape");
-      entry.part = part;  // keeps the address, and with it the key, alive
+      entry.part = part;  // the address is the key; this keeps it valid
       entry.shape = std::make_unique<Shape>(make_shape(*part, settings_.coarse_samples, settings_.fine_samples,
                                                        settings_.field_cell, settings_.field_nodes));
       if (change_) change_(*entry.shape);
