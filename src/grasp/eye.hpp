@@ -10,14 +10,14 @@ class Eye {
  public:
   /// The image must outlive this object.
   explicit Eye(const RangeImage& image);
-  /// Appends to SceneGrasp::visible and measured.
+  /// Appends the shares of the contacts of `grasp` that the camera sees, and has measured, to `visible` and `measured`.
   void look(const Grasp& grasp, SceneGrasp& placed) const;
 
  private:
   const RangeImage& image_;
   Lens lens_;
   Pose into_camera_;
-  bool measures_;  ///< depth and labels are images of the camera, not profiles
+  bool measures_;  ///< whether depth and labels are images of the camera; false for profiles of a laser line
 };
 
 }  // namespace bin_scenes

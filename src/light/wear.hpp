@@ -10,8 +10,8 @@
 
 namespace bin_scenes {
 
-/// @param point  part's frame
-/// @param key    of the part
+/// Returns the surface with wear at a point. @param point  in the frame of the part (m)
+/// @param key    random key of the part
 Surface worn(Surface surface, const Vec3& point, std::uint64_t key);
 
 }  // namespace bin_scenes

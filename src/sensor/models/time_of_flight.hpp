@@ -14,13 +14,13 @@ namespace bin_scenes {
 struct TimeOfFlightSetup {
   TimeOfFlightSettings settings;
   bool noise = true;
-  double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+  double near = 0.0, far = 1e9;  ///< m, range of depths that the camera reports
   IndirectField::Setup indirect{};
   bool gray = true;  ///< whether Measurement::light is filled
 };
 
-/// @param random  of the noise
-/// @param rays    of the indirect light's samples
+/// @param random  random numbers of the noise
+/// @param rays    random numbers for the samples of indirect light
 Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfaces& surfaces,
                            const TimeOfFlightSetup& setup, const Random& random,
                            const Random& rays = Random(0, 0, Stream::sensor));

@@ -23,15 +23,15 @@ inline double tilt(double incidence) {
 }
 }  // namespace detail
 
-/// Standard deviation of depth (m) at z (m) under an incidence (rad); `signal` as seen by a facing surface of that
-/// albedo.
+/// Returns the standard deviation of depth (m) at the depth z (m) and the angle of incidence (rad). `signal` is the
+/// albedo of a surface facing the camera that would give the same signal.
 inline double axial_sigma(const TimeOfFlightSettings& s, double z, double incidence, double signal) {
   const double far = z - s.axial_distance, tilt = detail::tilt(incidence);
   const double sigma = s.axial + s.axial_growth * far * far + s.axial_angle * z * std::sqrt(z) * tilt * tilt;
   return s.albedo > 0.0 ? sigma * std::sqrt(s.albedo / std::max(signal, 1e-6)) : sigma;
 }
 
-/// Standard deviation of a ray's jitter, pixels.
+/// Returns the standard deviation of the random sideways displacement of a pixel's ray (pixels).
 inline double lateral_sigma(const TimeOfFlightSettings& s, double incidence) {
   return s.lateral + s.lateral_angle * detail::tilt(incidence);
 }
