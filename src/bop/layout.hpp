@@ -1,6 +1,6 @@
 /// The names and paths of a BOP data set whose folders are scenes (github.com/thodan/bop_toolkit,
-/// docs/bop_datasets_format.md, bop_toolkit_lib/dataset_params.py). No other file spells them, and this one writes
-/// nothing.
+/// docs/bop_datasets_format.md, bop_toolkit_lib/dataset_params.py). No other file contains these names, and this one
+/// writes nothing.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"

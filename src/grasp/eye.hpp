@@ -1,5 +1,5 @@
-/// Visibility of the contacts of grasps in one image. For each contact, it determines what share the camera of the
-/// image sees and has measured, by the labels and the depth of the image. The image itself is not changed.
+/// Visibility of the contacts of grasps in one image. By the labels and the depth of the image, it determines which
+/// share of the contact points of a grasp the camera sees, and which share it has measured.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

@@ -1,5 +1,5 @@
-/// The search for grasps of one part in a scene: from vertical approaches outwards, down to the floor and the
-/// neighbours. It proposes poses, and calls of the caller decide whether they are reached and free.
+/// The search for grasps of one part in a scene, from vertical approaches to tilted ones, as deep as the floor and the
+/// neighbours permit. It proposes poses; callbacks of the caller decide whether they are reached and free.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"

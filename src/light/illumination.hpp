@@ -40,7 +40,7 @@ struct SeenPoint {
 SeenPoint seen_point(const View& view, std::size_t pixel);
 
 struct Lit {
-  Validity code = Validity::nothing;  ///< valid, nothing, shadow or outside
+  Validity code = Validity::nothing;  ///< validity code: valid, nothing, shadow or outside
   double column = 0.0, row = 0.0;     ///< position in the projector's image, if the point is in its field
   double distance = 0.0;              ///< m, distance of the point from the light source
   double reflected = 0.0;             ///< result of reflected(); 0 unless the code is valid

@@ -7,10 +7,10 @@
 /// via two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
 /// robust light transport").
 ///
-/// The random points fill their squares evenly (Sobol points whose digits are flipped by a key of the pixel), so that
-/// images depend on seed, scene, sensor and pixel only. At the surface that a pixel sees, half of its paths draw a
-/// point on a lamp and the others follow the lobe. Half of the latter continue to further surfaces, where each does
-/// both. Their contributions count two and four times, because light from there varies slowly.
+/// The random points are distributed evenly (Sobol points, scrambled by a key of the pixel). At the surface that a
+/// pixel sees, half of its paths sample a point on a lamp, and the others follow the lobe. Half of the latter continue
+/// to further surfaces, where each path does both. Contributions of a half and of a quarter of the paths count two and
+/// four times. Few paths suffice there, as that light varies slowly.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,5 +1,5 @@
-/// Projects meshes into the image of a pinhole camera, and sorts their triangles by the rows that they cover.
-/// drawing.hpp and spots.hpp draw from it.
+/// Projects meshes into the image of a pinhole camera, and sorts their triangles by the rows that they cover. The code
+/// in drawing.hpp and spots.hpp draws these triangles.
 #pragma once
 
 #include "bin_scenes/raster/lens.hpp"

@@ -19,7 +19,7 @@ struct Spot {
 
 class SpotDrawing {
  public:
-  static constexpr double reach = 0.6;
+  static constexpr double reach = 0.6;  ///< pixels, largest distance of a spot from the nearest pixel centre
 
   /// @param near, far  range of depths that are drawn (m)
   SpotDrawing(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);

@@ -5,7 +5,7 @@
 /// camera has one sample per row (or column) along the line. In each of them, the device searches the peak of the line
 /// across columns (or rows), and the ray of the peak intersects the sheet at the measured point.
 ///
-/// Light that other surfaces reflect adds to the lines. Where it is brightest beside them, it is mistaken for the line
+/// Light that other surfaces reflect adds to the image. Its brightest spot beside a line can be mistaken for the line
 /// (sheet_glow.hpp).
 #pragma once
 
@@ -68,8 +68,8 @@ class LaserLine {
   };
   /// The lines that the camera can see in one profile.
   struct Lines {
-    std::vector<Line> lines;      ///< by sample
-    std::vector<Validity> codes;  ///< by sample: why there is no line
+    std::vector<Line> lines;      ///< the lines, ordered by sample
+    std::vector<Validity> codes;  ///< for each sample: validity code that states why there is no line
   };
   struct Carriage {
     Vec3 laser, eye;  ///< positions of laser and camera in the bin frame, at one profile

@@ -27,7 +27,7 @@ class Stereo {
     double near = 0.0, far = 1e9;  ///< m, range of depths that the camera reports
     IndirectField::Setup indirect{};
     StereoPipeline pipeline{};
-    bool gray = true;  ///< whether Measurement::light is filled
+    bool gray = true;  ///< whether to compute the light of the grey image (Measurement::light)
   };
   /// @param random  random numbers for the samples of indirect light
   /// @param view    view of the first camera, whose images are rectified and undistorted. With noise, the measurement

@@ -46,7 +46,7 @@ class StructuredLight {
     IndirectField::Setup indirect{};
     bool only_analytic = false;  ///< only analytic() is used: the few images need only coarse indirect light
     ReflectionFilter reflection{};
-    bool gray = true;  ///< whether Measurement::light is filled
+    bool gray = true;  ///< whether to compute the light of the grey image (Measurement::light)
   };
   /// @param random  random numbers for the samples of indirect light
   StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
@@ -133,7 +133,7 @@ class StructuredLight {
   Mat3 turn_;                   ///< rotation from the camera frame to the bin frame
 
   // The light on the surface that the centre of each pixel sees, row-major.
-  std::vector<Validity> codes_;  ///< valid, nothing, shadow or outside
+  std::vector<Validity> codes_;  ///< validity code: valid, nothing, shadow or outside
   std::vector<double> columns_;  ///< column of the projector's image
   std::vector<double> whites_;   ///< reflected share / squared distance to the projector (1/m2)
   std::vector<double> planes_;   ///< Pixel::plane

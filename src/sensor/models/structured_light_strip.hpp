@@ -33,7 +33,7 @@ class StructuredLight::Strip {
     Phasors phasors;
     int brightest = 0;     ///< index of the brightest cell
     float diffuse = 0.0f;  ///< mean share of ambient light that is reflected
-    bool outside = false;  ///< a part lies outside the projector's field
+    bool outside = false;  ///< whether some of the pixel is outside the projector's field
   };
 
   /// Prepares the rows from `first` to last - 1 of the image.
@@ -105,11 +105,11 @@ struct StructuredLight::Blend {
   double white = 0.0;                             ///< mean of the projector's white light over the pixel's footprint
   double cosine = 0.0, sine = 0.0;                ///< phasor of the fringe
   double second_cosine = 0.0, second_sine = 0.0;  ///< phasor of the second fringe, if there is one
-  double column = 0.0;                            ///< column of the brightest cell
+  double column = 0.0;                            ///< projector column of the brightest cell
   double diffuse = 0.0;                           ///< share of ambient light that is reflected
   double off_share = 0.0;  ///< share of the footprint that is on other faces, off this face by more than edge_step; not
                            ///< summed further once it is above `tolerated`
-  bool outside = false;    ///< a part lies outside the projector's field
+  bool outside = false;    ///< whether some of the footprint is outside the projector's field
 };
 
 template <class Use>
@@ -124,7 +124,7 @@ StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const U
       const Values& weight = weights_[place];
       const float share = shares_[place];
       total += share;
-      if (at < 0) {  // nothing is there
+      if (at < 0) {  // the pixel sees nothing
         out.off_share += share;
         continue;
       }

@@ -16,7 +16,7 @@ struct TimeOfFlightSetup {
   bool noise = true;
   double near = 0.0, far = 1e9;  ///< m, range of depths that the camera reports
   IndirectField::Setup indirect{};
-  bool gray = true;  ///< whether Measurement::light is filled
+  bool gray = true;  ///< whether to compute the light of the grey image (Measurement::light)
 };
 
 /// @param random  random numbers of the noise
