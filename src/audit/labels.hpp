@@ -33,13 +33,13 @@ struct LabelFigures {
   double obliqueness = 0.0;              ///< mean of distance / depth - 1 of these pixels
   std::optional<double> visible;         ///< visib_fract minus the fraction that the audit finds by the same rule
   std::optional<double> counted;         ///< %, deviation of px_count_visib from the pixels of mask_visib
-  std::vector<std::string> faults;       ///< missing masks, exchanged labels
+  std::vector<std::string> faults;       ///< faults of the part's labels, as text: missing masks, exchanged labels
 };
 
 struct LabelledImage {
   int width = 0, height = 0;
   std::vector<LabelFigures> parts;  ///< by entry of scene_gt
-  std::vector<std::string> faults;  ///< missing files
+  std::vector<std::string> faults;  ///< files that are missing, as text
   CameraError camera;               ///< error of the stated camera, including that of the whole set
   double depth_offset = 0.0;        ///< mm, median over the parts of measured depth minus depth of the model
 };

@@ -12,7 +12,7 @@
 
 namespace bin_scenes {
 
-/// A rectangle of an image; pixels outside of it are 0.
+/// A mask that is stored only within a rectangle of the image (pixels); pixels outside of it are 0.
 struct MaskBox {
   int left = 0, top = 0, width = 0, height = 0;
   std::vector<std::uint8_t> inside;  ///< row-major, 0 or 1
@@ -21,7 +21,7 @@ struct MaskBox {
 MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box);
 MaskBox whole_mask(const Silhouette& silhouette);
 
-/// A mask of the size of its image.
+/// A mask that is stored for all pixels of the image.
 struct BinaryImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> inside;  ///< row-major, 0 or 1

@@ -46,7 +46,7 @@ struct BopReadOptions {
 struct BopSet {
   std::map<int, std::string> models;  ///< path of the mesh of each object that occurs in the scenes, by obj_id
   bool world_stated = true;  ///< false: images have no cam_R_w2c; `up` is then taken as the reverse of the camera axis
-  std::vector<BopView> views;  ///< in order of scene and image
+  std::vector<BopView> views;  ///< all images, in the order of scenes and images
 };
 
 /// Reads all folders with scene_gt*.json at `root` or up to three levels below it. Throws an input Error that names

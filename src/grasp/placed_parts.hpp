@@ -26,7 +26,7 @@ class PlacedParts {
   PlacedParts(const Scene& scene, const LoadedRequest& loaded);
 
   const std::vector<PlacedPart>& all() const { return all_; }  ///< parts in the order of the scene, then the bin
-  const Vec3& up() const { return up_; }                       ///< unit, against gravity
+  const Vec3& up() const { return up_; }                       ///< unit vector against gravity, bin frame
   double top() const { return top_; }                          ///< m along up: highest point of all parts and the bin
   bool flat_floor() const { return flat_floor_; }              ///< whether the bin's floor is the plane z = 0
   /// Returns the id of the first part (-1: the bin) that a sweep hits, or none; tests all() in the order of the indices

@@ -34,7 +34,7 @@ class PoseMeasure {
   double angle_between(const Quat& a, const Quat& b) const;
   Quat about_axis(const Pose& a, const Pose& b, double arm) const;
 
-  std::vector<Pose> maps_;  ///< the identity first
+  std::vector<Pose> maps_;  ///< the identity, then the discrete symmetries of the part
   std::vector<Symmetries::Axis> axes_;
   Gripper::Type type_;
 };

@@ -17,7 +17,7 @@ namespace bin_scenes {
 class IndirectField {
  public:
   struct Setup {
-    int bounces = 0;   ///< 0: no indirect light
+    int bounces = 0;   ///< largest number of reflections at other surfaces; 0: no indirect light
     int samples = 16;  ///< smallest number of rays that are cast at a node
     /// Standard error of a node's light / Pattern::unit above which it gets more rays; 0: no node does.
     double error = 0.02;

@@ -12,7 +12,7 @@
 
 namespace bin_scenes {
 
-/// A picture of all directions: the first row is the zenith's.
+/// An equirectangular picture of all directions; its first row is at the zenith.
 struct Panorama {
   int width = 0, height = 0;
   std::vector<Eigen::Array3f> radiance;  ///< red, green and blue of each pixel, row-major

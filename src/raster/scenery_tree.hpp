@@ -38,7 +38,7 @@ struct MeshTree {
   PartModelPtr owner;
   Mesh own;
   RTCScene embree = nullptr;
-  /// Plane of each triangle.
+  /// The plane of each triangle, in the frame of the mesh.
   std::vector<Scenery::Plane> planes;
   std::vector<char> outermost;  // for each triangle: whether the whole mesh is behind its plane
   bool closed = false;

@@ -37,7 +37,7 @@ class TemporalAverage {
 };
 
 /// Returns the standard deviation, after the temporal filter, of noise that is independent in each image and is 1
-/// before the filter, if no difference reaches delta: the root of alpha / (2 - alpha) + a term for the first image.
+/// before. No difference must reach delta. It is sqrt(alpha / (2 - alpha) + remaining share of the first image).
 double temporally_filtered_noise(const TemporalFilter& settings);
 
 /// Fills each missing pixel from its neighbours to the left, above and below, row by row, so that filled pixels are

@@ -20,7 +20,7 @@ class Fringes {
   int images() const { return steps_ + bits_; }
   /// Adds to images[i] weight times the light of pattern i at a column (0 dark to 1 white), blurred by pixel and lens.
   void add_light(double column, double weight, float* images) const;
-  /// The same for many points, whose columns are usually close together. The sums are equal but for rounding.
+  /// Adds the light of many points at once. The sums are those of single calls, except for rounding.
   void add_light(const std::vector<float>& columns, const std::vector<float>& weights, float* images) const;
   /// Adds light that is constant over `spread` columns around `column`, rounded to the table's 1/32 of a column.
   void add_even_light(double column, double spread, double weight, float* images) const;

@@ -62,7 +62,7 @@ class LaserLine {
     int sample;
     double across, depth,
         signal;          ///< pixel, m along the optical axis, share of the full well; signal 0: reflected light
-    Vec3 point, normal;  ///< bin frame
+    Vec3 point, normal;  ///< point on the surface (m) and its unit normal, bin frame
     std::uint16_t label;
     bool visible;
   };

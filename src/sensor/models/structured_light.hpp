@@ -135,8 +135,8 @@ class StructuredLight {
   // The light on the surface that the centre of each pixel sees, row-major.
   std::vector<Validity> codes_;  ///< validity code: valid, nothing, shadow or outside
   std::vector<double> columns_;  ///< column of the projector's image
-  std::vector<double> whites_;   ///< reflected share / squared distance to the projector (1/m2)
-  std::vector<double> planes_;   ///< Pixel::plane
+  std::vector<double> whites_;   ///< light of the projector's white: Lit::reflected / distance^2 (1/m2)
+  std::vector<double> planes_;   ///< Pixel::plane (m)
   std::vector<double> worn_;     ///< share of ambient light that is reflected; empty: no surface has a texture
   std::vector<double> scales_;   ///< exposures / ImagerSettings::exposure, the longest first
   double gain_ = 0.0;            ///< signal of the projector's white = gain * white

@@ -48,7 +48,7 @@ class StructuredLight::Strip {
  private:
   struct Place {
     std::size_t index;  ///< pixel
-    int cell;
+    int cell;           ///< index of the cell in its pixel
   };
   struct Seen {
     double depth;
@@ -96,7 +96,7 @@ class StructuredLight::Strip {
   std::vector<Phasors> second_;  ///< phasors of the second fringe, by cells; empty: there is none
   Values across_, down_;         ///< positions of the cells in their pixel, -0.5 to 0.5
   std::vector<Values> weights_;  ///< weights of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
-  std::vector<float> shares_;    ///< sum of each element of weights_
+  std::vector<float> shares_;    ///< for each element of weights_: the sum of its 16 weights
 };
 
 /// The light of a pixel near an edge.

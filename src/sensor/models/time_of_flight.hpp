@@ -1,6 +1,6 @@
-/// The sensor model `time_of_flight`. Its light source is at the lens, so that nothing is in shadow. The model has
-/// noise along the ray and across it (time_of_flight_noise.hpp), mixed pixels whose light returns from two depths, and
-/// light that arrives late via other surfaces (multipath.hpp).
+/// The sensor model `time_of_flight`. The light source of the camera is at its lens, so that nothing is in shadow. The
+/// model has noise along the ray and across it (time_of_flight_noise.hpp), mixed pixels whose light returns from two
+/// depths, and light that arrives late via other surfaces (multipath.hpp).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

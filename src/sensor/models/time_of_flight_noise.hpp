@@ -15,8 +15,8 @@
 namespace bin_scenes {
 
 namespace detail {
-/// The factor t / (pi/2 - t) of the paper's formula. It has a pole at 90 degrees, where no camera measures. Beyond 80
-/// degrees, the value stays that of 80 degrees.
+/// The factor t / (pi/2 - t) of the paper's formula. It has a pole at an angle of incidence of 90 degrees, where no
+/// camera measures. Beyond 80 degrees, the value for 80 degrees is used.
 inline double tilt(double incidence) {
   const double t = std::min(incidence, M_PI * 80.0 / 180.0);
   return t / (0.5 * M_PI - t);
