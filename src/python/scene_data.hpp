@@ -21,10 +21,10 @@ class ImageData {
   RangeImage image;
   std::vector<std::array<float, 3>>& points();
   std::vector<std::array<float, 3>>& normals();
-  /// Counts of 8 bits in a byte each.
+  /// Returns the counts of a picture of 8 bits, one byte per count.
   std::vector<std::uint8_t>& picture_bytes();
   bool has_gray() const;              ///< whether gray() may be called
-  std::vector<std::uint8_t>& gray();  ///< levels of gray_of()
+  std::vector<std::uint8_t>& gray();  ///< grey levels that gray_of() returns
 
  private:
   std::mutex mutex_;
@@ -32,12 +32,12 @@ class ImageData {
   std::vector<std::array<float, 3>> points_, normals_;
 };
 
-/// What is made of a scene in addition to its poses.
+/// Which data of a scene is made in addition to the poses.
 struct Wanted {
   bool images = true, grasps = false, gray = false;
 };
 
-/// Throws an input Error where the request has no grippers, but grasps are wanted.
+/// Throws an input Error if grasps are wanted, but the request has no grippers.
 Generator::Options options_of(const Wanted& wanted, const Request& request, const std::string& caller);
 
 struct SceneData {

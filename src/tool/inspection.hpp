@@ -28,7 +28,7 @@ struct Inspection {
   std::size_t vertices = 0, triangles = 0, shells = 0;
   bool watertight = false;
   std::size_t open_edges = 0;
-  // An open surface has no volume, and none of these.
+  // An open surface has no volume and therefore none of the following.
   struct Mass {
     double volume = 0.0, area = 0.0;
     Vec3 center = Vec3::Zero();
