@@ -33,7 +33,7 @@ struct BodyDef {
 /// Pose and velocity of a body.
 struct BodyState {
   Pose pose;       ///< from the model frame to the bin frame
-  Twist velocity;  ///< of the centre of mass, bin frame
+  Twist velocity;  ///< velocity of the centre of mass, and angular velocity, in the bin frame
 };
 
 /// Constant properties of a world.
