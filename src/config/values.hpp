@@ -16,7 +16,7 @@
 
 namespace bin_scenes::config {
 
-/// The error of a value of the wrong type: what was expected. The caller adds the file, the line and the key.
+/// Thrown if a value has the wrong type; states what was expected. The caller adds file, line and key.
 struct Mismatch {
   static constexpr std::size_t whole = static_cast<std::size_t>(-1);
 

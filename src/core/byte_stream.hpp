@@ -116,7 +116,7 @@ class ByteReader : public ByteStream<ByteReader> {
     ok_ = ok_ && byte <= 1;
     value = byte == 1;
   }
-  /// Resizes a list to the number that follows, which is never more than the remaining bytes can hold.
+  /// Reads the length of a list and resizes the list. If too few bytes remain for that many items, ok() becomes false.
   template <class List>
   void size(List& list, std::size_t item) {
     std::uint64_t n = 0;

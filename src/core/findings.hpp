@@ -1,6 +1,6 @@
-/// The list of faults that a check of files has found, with the number of checks that were made. The checks of data
-/// sets collect their results here from several threads. The list is sorted for output, so that it does not depend on
-/// the threads.
+/// The errors that a check of files has found, with the number of checks that were made. The checks of data sets
+/// collect their results here from several threads. The list is sorted for output, so that it does not depend on the
+/// order of the threads.
 #pragma once
 
 #include <map>

@@ -3,14 +3,14 @@
 ///     DIR/dataset.json                     plan, version and size, written before anything else
 ///     DIR/plan.yaml                        the plan as it was read
 ///     DIR/scenes/scene_000007/             scene.json, request.yaml, files.json, images
-///     DIR/set_apart/scene_000007_attempt_0/  the same for what was not accepted
-///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes; `train`, or what the plan splits into
+///     DIR/set_apart/scene_000007_attempt_0/  the same for attempts that were not accepted
+///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes; `train`, or the splits of the plan
 ///     DIR/bop/*.json                       cameras, targets and description of all scenes together
-///     DIR/samples/000007/                  BOP's layout by images, until it is packed into
+///     DIR/samples/000007/                  BOP's layout by images, until these are packed into shards
 ///     DIR/shards/shard-000000.tar, ...
-///     DIR/index.sqlite                     state, times, digests: nothing that a scene does not state itself but times
+///     DIR/index.sqlite                     state, times, digests; only the times are stored nowhere else
 ///
-/// Everything but index.sqlite is the same, byte for byte, however it was made.
+/// Except for index.sqlite, all files are the same byte for byte, however the data set was made (shares, restarts).
 #pragma once
 
 #include "bin_scenes/config/plan.hpp"

@@ -52,7 +52,7 @@ class HeapMaker {
   DataSetFacts facts_;
   std::size_t first_;
   Generator generator_;
-  /// Digest of a model file and the settings with which it is loaded: heaps must not depend on earlier heaps.
+  /// Identifies what is loaded from a model file: its digest and all settings. Heaps must not depend on earlier heaps.
   using Model = std::tuple<std::string, std::optional<Unit>, double, std::optional<double>, std::optional<double>,
                            double, std::string>;
   std::map<Model, double> volumes_;  ///< volume of one part of each model (m3)

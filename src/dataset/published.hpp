@@ -1,6 +1,6 @@
-/// Published figures of data sets of real bins, beside the same figures of a simulated data set: number of parts,
-/// visible fraction, distance and missing depth. The report of a data set shows them as a table. Each published figure
-/// states its source.
+/// Compares published values of data sets of real bins with those of a simulated data set: number of parts, visible
+/// fraction, distance, and share of parts with missing depth. The report of a data set shows them as a table, in which
+/// each published value states its source.
 #pragma once
 
 #include <nlohmann/json.hpp>

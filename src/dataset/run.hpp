@@ -21,7 +21,7 @@ struct RunProgress {
 };
 
 struct RunOptions {
-  std::size_t workers = 0;            ///< 0: as many as cores
+  std::size_t workers = 0;            ///< number of worker processes; 0: one per core
   std::size_t shard = 0, shards = 1;  ///< makes the heaps whose number modulo `shards` is `shard`
   std::function<void(const RunProgress&)> progress;
   std::function<void(const std::string&)> warn;

@@ -37,7 +37,7 @@ class SceneIndex {
   void forget(std::size_t heap);
   std::set<std::size_t> heaps() const;  ///< heaps that are finished or have failed
   IndexCounts counts() const;
-  /// Adds the heaps whose number divided by `shards` leaves the remainder `shard` to those that this folder must hold.
+  /// Adds a share to those that this folder must contain: the heaps whose number modulo `shards` is `shard`.
   void add_share(std::size_t shard, std::size_t shards);
   std::set<std::pair<std::size_t, std::size_t>> shares() const;
   std::map<std::string, double> stages_ms() const;  ///< wall-clock time by stage (ms), summed over all heaps

@@ -18,7 +18,7 @@ struct ChosenUnit {
 
 /// Returns the unit that --unit gives, that the file states, or that its size implies: mm or m, if only one of them
 /// gives a size of 5 mm to 0.6 m. Throws an input Error that names the possible units.
-/// @param file  loaded in metres, or in the unit that it states
+/// @param file  model file, loaded in metres or in the unit that the file states
 ChosenUnit choose_unit(const LoadedMesh& file, std::optional<Unit> given, const std::string& path);
 
 struct FittedBin {
@@ -33,7 +33,7 @@ struct FittedBin {
 FittedBin fit_bin(const Mesh& part, std::size_t count);
 
 struct SensorPlace {
-  std::optional<double> height;  ///< height above the floor (m), looking down; none: the default position
+  std::optional<double> height;  ///< height above the floor (m) of a sensor that looks down; none: the default position
   double distance = 0.0;         ///< distance from the camera to the floor (m)
   std::string warning;           ///< what the sensor cannot see, for the user; empty: nothing
 };

@@ -21,7 +21,7 @@ Bytes png_of(int width, int height, const Picture& picture);
 /// Returns the upper eight bits of each sample.
 std::vector<std::uint8_t> in_bytes(const Picture& picture);
 
-/// A picture of few colours. Its PNG file is a third as large as one in RGB, and takes a third of the time to compress.
+/// A picture of few colours: its PNG file needs a third of the bytes and of the compression time of an RGB picture.
 struct Palette {
   int width = 0, height = 0;
   std::vector<std::array<std::uint8_t, 3>> colours;  ///< at most 256

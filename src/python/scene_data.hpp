@@ -47,9 +47,9 @@ struct SceneData {
   std::optional<SceneGrasps> grasps;
   std::shared_ptr<const LoadedRequest> loaded;
   std::vector<std::shared_ptr<ImageData>> images;
-  std::vector<std::array<double, 7>> poses;       ///< by part: x y z qx qy qz qw
-  std::vector<std::array<double, 6>> velocities;  ///< by part: linear, angular
-  std::vector<std::int32_t> ids, lines;           ///< by part
+  std::vector<std::array<double, 7>> poses;       ///< pose of each part: x y z (m), qx qy qz qw
+  std::vector<std::array<double, 6>> velocities;  ///< velocity of each part: linear (m/s), angular (rad/s)
+  std::vector<std::int32_t> ids, lines;           ///< id and part line of each part
 
   /// scene.json as the command line writes it; without images it has no block `truth`.
   std::string json() const;

@@ -20,7 +20,7 @@
 
 namespace bin_scenes::python {
 
-/// Is called 20 times a second during a wait. If it throws, the job is cancelled, and the caller gets the exception.
+/// A wait calls this function 20 times a second. If it throws, the job is cancelled, and the caller gets the exception.
 using Poll = std::function<void()>;
 
 class Session {

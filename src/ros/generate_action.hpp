@@ -36,7 +36,7 @@ class GenerateAction {
 
   SceneJobs& jobs_;
   const bool preempt_;
-  std::vector<Open> open_;  ///< goals that may still run; used only in callbacks of the queue
+  std::vector<Open> open_;  ///< goals that may still run; used only in the thread of the queue
   Server server_;
   ros::WallTimer timer_;
 };

@@ -73,7 +73,7 @@ class LazyTopic {
   const LazyTopicOptions options_;
   std::function<std::optional<Message>()> make_;
   ros::Publisher publisher_;
-  boost::shared_ptr<Message> last_;  ///< message that was published for the present state; null: none yet
+  boost::shared_ptr<Message> last_;  ///< message published for the present scene; null: none yet
 };
 
 }  // namespace bin_scenes

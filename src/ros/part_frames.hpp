@@ -1,16 +1,16 @@
 /// Publishes the frames of the parts of a scene on /tf.
 ///
-/// A tf2 buffer forgets what is older than its length (10 s unless set otherwise) before the newest stamp of a frame,
-/// and warns if one stamp comes twice. Transforms that are sent again and again under the present time would thus push
-/// out the stamp of the scene, under which its cloud is looked up. Therefore:
+/// A tf2 buffer stores the transforms of a frame for a fixed time (10 s by default) before the newest stamp, and warns
+/// if a stamp is repeated. If transforms were sent repeatedly with the present time, the stamp of the scene, at which
+/// its cloud is looked up, would soon be too old for the buffer. Therefore:
 ///
-///     scene shown     its stamp S
-///     at a set rate   S less some microseconds, and the present time, in one message; for a span below the buffers'
-///                     length, then no more
-///     late listener   the last of these messages, which is latched: it has S between its two stamps
-///     gone parts      once, as children of a frame that nothing connects to the bin: lookups of them fail at once
+///     new scene         transforms with its stamp S
+///     at a fixed rate   one message with transforms at some microseconds before S and at the present time; it ends
+///                       after a span that is shorter than the buffers
+///     late subscriber   the last of these messages, which is latched; S is between its two stamps
+///     removed parts     once, as children of a frame without connection to the bin, so that lookups fail at once
 ///
-/// So a part is found at S, at "the latest" (time 0), and at the present time within the span.
+/// A part is thus found at S, at the latest time (time 0), and at the present time within the span.
 #pragma once
 
 #include "frames.hpp"

@@ -84,7 +84,7 @@ class SceneJobs {
   Status status_;
   std::unique_ptr<SceneMaker> maker_;  ///< only the thread of the jobs uses it
   std::unique_ptr<Ahead> ahead_;
-  JobQueue queue_;  ///< last: its thread uses all of the above
+  JobQueue queue_;  ///< must be the last member, because its thread uses the others
 };
 
 }  // namespace bin_scenes

@@ -1,5 +1,5 @@
-/// Makes the scenes of one bin, and keeps the heap of the present scene so that parts can be removed and added. It
-/// stands between the services of the node and the library (pour/heap.hpp). It publishes nothing.
+/// Makes the scenes of one bin, and keeps the heap of the present scene so that parts can be removed and added. The
+/// services of the node use it; it uses the library (pour/heap.hpp), and publishes nothing.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"

@@ -30,7 +30,7 @@ class ThreadQueue {
     post([task] { (*task)(); });
     return result.get();
   }
-  /// Waits for the running function. Waiting functions are dropped.
+  /// Ends the thread: waits for the function that is running, and drops the functions that are waiting.
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();

@@ -68,7 +68,7 @@ int realism(const RealismOptions& options);
 
 struct DatasetOptions {
   std::string plan, out;
-  std::size_t workers = 0;  ///< 0: as many as cores
+  std::size_t workers = 0;  ///< number of worker processes; 0: one per core
   std::string shard;        ///< share of heaps as "i/n"; empty: all heaps
   bool json_progress = false;
 };
@@ -106,7 +106,7 @@ struct AuditOptions {
   std::size_t most = 0;             ///< largest number of heaps; 0: all
   std::vector<std::string> limits;  ///< limits as "key=value"
   double share = 0.05;              ///< share of the parts that may exceed a limit of overlap, gap or drift
-  std::string out;                  ///< HTML file; empty: none
+  std::string out;                  ///< HTML file of the report; empty: none
   bool json = false;
 };
 int audit(const AuditOptions& options);

@@ -1,5 +1,5 @@
-/// What `inspect` states of a model, and the tables of it that its JSON and its text are both made from. inspect.cpp
-/// fills it in and prints it.
+/// The results of `bin_scenes inspect` for a model, and the tables of keys from which its JSON and text outputs are
+/// made. inspect.cpp fills in the results and prints them.
 #pragma once
 
 #include "bin_scenes/part/shape_error.hpp"

@@ -17,8 +17,8 @@ namespace bin_scenes {
 struct Surfaces {
   std::vector<Surface> lines;  ///< surfaces of the part lines
   Surface bin;
-  /// Where a part lies, and the random key of its texture: in these, its surface differs from those of other parts of
-  /// the same line.
+  /// The pose of a part, and the random key of its texture. By these two, its surface differs from the surfaces of
+  /// other parts of the same line.
   struct Place {
     Pose to_part;       ///< from the bin frame to the frame of the part
     Vec3 longest;       ///< unit vector, longest axis of the part in the part's frame

@@ -105,7 +105,7 @@ class Scenery {
   struct Face {
     std::uint32_t body = no_face, triangle = 0;
     Vec3 normal = Vec3::Zero();  ///< outward, bin frame
-    bool outermost = false;      ///< whether the whole body is behind the plane of the face
+    bool outermost = false;      ///< whether the whole body is on the inner side of the plane of the face
     bool on_floor = false;
   };
   /// Returns the face with a number; its body is no_face for no_face.
