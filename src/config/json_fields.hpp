@@ -88,7 +88,7 @@ void read_json(const Json& json, const std::string& path, std::string& value);
 void read_json(const Json& json, const std::string& path, Vec3& value);
 void read_json(const Json& json, const std::string& path, Pose& value);  ///< null is read as Pose::none()
 void read_json(const Json& json, const std::string& path, Twist& value);
-void read_json(const Json& json, const std::string& path, Word& value);  ///< accepts unknown words as well
+void read_json(const Json& json, const std::string& path, Word& value);  ///< accepts any word, also an unknown one
 void read_json(const Json& json, const std::string& path, Hexadecimal& value);
 /// Throws a JsonFault unless `json` is a list. If `size` is given, the list must have this number of items.
 void expect_list(const Json& json, const std::string& path, std::optional<std::size_t> size = {});

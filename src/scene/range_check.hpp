@@ -44,7 +44,7 @@ class RangeCheck {
   void list(const Key& key, std::vector<Struct>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) nested(key.name + ("[" + std::to_string(i) + "]."), values[i]);
   }
-  void list(const Key&, std::vector<Sensor>&) {}  ///< their keys are those of models: check_sensors()
+  void list(const Key&, std::vector<Sensor>&) {}  ///< the sensor models check their keys: check_sensors()
   void bin_kind(Bin&, const BinKeys&) {}
 
  private:

@@ -29,7 +29,7 @@ class RestWatch {
  private:
   struct Body {
     bool seen = false, resting = false;
-    double since = 0.0;  ///< time (s) of the reference pose
+    double since = 0.0;  ///< time of the reference pose (s)
     Vec3 center = Vec3::Zero();
     Quat orientation = Quat::Identity();
   };
