@@ -198,8 +198,8 @@ struct SphereAsk {
   uint steps, flags, observation;  // number of steps, SPHERE_REST_ANEW etc., number of the observation (0: none)
   float seconds;    // s since the last observation
   uvec4 since;      // numbers of four observations (WatchAsk::since)
-  vec4 lower;       // lower bounds of the bin (m); w: largest displacement of a body at rest (diagonals of the part)
-  vec4 upper;       // upper bounds of the bin (m); w: largest rotation of a body at rest (rad)
+  vec4 lower;       // lower bounds of the bin (m); w: a body that moves farther is not at rest (diagonals of the part)
+  vec4 upper;       // upper bounds of the bin (m); w: a body that turns further is not at rest (rad)
   uint rested, unused0, unused1, unused2;  // rested: WatchAsk::rested
 };
 

@@ -13,7 +13,7 @@ struct Passage {
   std::size_t triangle;  ///< index of the triangle in the mesh
 };
 
-/// Returns all passages that are more than `from` (m) away from the origin of the ray, ordered by distance.
+/// Returns all points where the ray crosses the surface at more than `from` (m) from its origin, ordered by distance.
 std::vector<Passage> passages(const MeshQuery& mesh, const Vec3& origin, const Vec3& direction, double from);
 
 }  // namespace bin_scenes

@@ -1,6 +1,6 @@
-/// From a request to a scene at rest: parts start at seeded poses without overlap and enter above the growing heap, and
-/// a window of simulated time decides on rest. The code uses solvers through their interface only (solver/solver.hpp).
-/// It does not judge the result; quality/ does.
+/// Makes a scene at rest from a request. Parts enter above the growing heap, at poses drawn from the seed and without
+/// overlap. Parts that stay in place during a window of simulated time are at rest. Solvers are used through their
+/// interface only (solver/solver.hpp). The result is judged elsewhere (quality/).
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"

@@ -45,7 +45,7 @@ INLINE void spread(INOUT(Patch) area, Real impulse, IN(Real3) ra) {
   area.wide_across += impulse * side * side;
 }
 
-// Return the largest torque impulses (N m s) against spin and tipping. radius: of the patch (m); arm: m, 0 for a ball.
+// Return the largest torque impulses (N m s) against spin and tipping of a patch (radius, m; arm: torque / force, m).
 INLINE Real most_against_spin(IN(Patch) area, Real radius, Real friction) {
   Real widest = 4.0f * radius * radius * area.impulse;
   return select(area.wide <= widest, 2.0f / 3.0f * radius * friction * area.impulse, all_lanes(0.0f));

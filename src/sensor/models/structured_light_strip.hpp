@@ -107,8 +107,8 @@ struct StructuredLight::Blend {
   double second_cosine = 0.0, second_sine = 0.0;  ///< phasor of the second fringe, if there is one
   double column = 0.0;                            ///< projector column of the brightest cell
   double diffuse = 0.0;                           ///< share of ambient light that is reflected
-  double off_share = 0.0;  ///< share of the footprint that is on other faces, off this face by more than edge_step; not
-                           ///< summed further once it is above `tolerated`
+  double off_share = 0.0;  ///< share of the footprint on other faces, farther than edge_step from this one; the
+                           ///< sum ends as soon as it exceeds `tolerated`
   bool outside = false;    ///< whether some of the footprint is outside the projector's field
 };
 

@@ -35,8 +35,8 @@ using Sleep = Phase::Sleep;
 struct Settings {
   float time_step = 1.0f / 400;  ///< s: duration of a step, with one collision detection
   bool cut_steps = true;         ///< whether steps are shortened for small and for fast parts
-  /// Number of sub-steps of a step. The stiffness of contacts grows with its square. The default of 4 is for tests that
-  /// build a World themselves: make_world() sets the number of the request, 2 by default.
+  /// Number of sub-steps of a step. The stiffness of contacts grows with the square of this number. The default of 4 is
+  /// for tests that build a World themselves: make_world() sets the number of the request, 2 by default.
   int sub_steps = 4;
   int sweeps = 2;          ///< sweeps before bodies move, and as many after it (rigid contacts: 1); with 1, stacks sway
   float tolerance = 0.1f;  ///< d per second: a contact whose speed changes by more in a sweep has not converged; if
