@@ -246,7 +246,7 @@ class Industrial(DataSetTest):
         self.refused("expected classic or industrial", bop="bop: {layout: industry}")
         self.refused("is unknown", "bop.layuot", bop="bop: {layuot: industrial}")
         self.refused("shares add up to 0.9", bop="split: {train: 0.5, test: 0.4}")
-        self.refused("no name of a folder of BOP", bop="split: {models_eval: 1}")
+        self.refused("cannot be the name of a split", bop="split: {models_eval: 1}")
 
     def test_views_that_cannot_be_are_refused(self):
         def views(text):

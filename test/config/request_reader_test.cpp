@@ -315,7 +315,7 @@ TEST_F(ConfigTest, WhatIsNoRequestIsSaidSo) {
   expect_refused("- 1\n- 2\n", {"not a map of keys"});
   expect_refused("just words\n", {"not a map of keys"});
   expect_refused("a: [1, 2\nb: 3\n", {"request.yaml:", "not YAML"});
-  expect_refused(bolts + "---\n" + bolts, {"behind the end of the request"});
+  expect_refused(bolts + "---\n" + bolts, {"after the end of the request"});
   expect_refused("seed: 1\nseed: 2\n" + bolts, {"request.yaml:2", "'seed' is given twice"});
   expect_refused("seed: 1\n", {"'parts'", "missing or empty"});
   expect_refused("parts:\n  - count: 3\n", {"request.yaml:2", "'parts[0].model' is missing"});

@@ -183,7 +183,7 @@ TEST_F(SceneJson, BrokenFilesAreNamedWithTheKey) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   };
-  expect("{", "is no JSON, or cut off");
+  expect("{", "is not valid JSON, or is incomplete");
   expect("{\n\"format\": \"bin_scenes/1\",\n???}", "from byte 29 on");
   expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed': holds \"one\" where a whole");
   // Casts of what does not fit: found by the fuzzer.

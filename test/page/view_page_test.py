@@ -394,7 +394,7 @@ sensors:
         file.write_text(json.dumps(scene))
         self.refused([self.scene], "box.stl", "earlier version", "make the scene anew")
         file.write_text("{")
-        self.refused([self.scene], "scene.json", "cut off")
+        self.refused([self.scene], "scene.json", "incomplete")
 
 
 if __name__ == "__main__":

@@ -385,7 +385,7 @@ class Package(unittest.TestCase):
         request = ROOT / "config/throughput_plan.yaml"  # a plan: refused with a reason
         example = [sys.executable, ROOT / "python/examples/live_dataset.py"]
         told = subprocess.run([*example, request], env={**os.environ, "PYTHONPATH": PACKAGES}, capture_output=True, text=True)
-        self.assertIn("give it to bin_scenes dataset", told.stderr.splitlines()[-1])
+        self.assertIn("pass it to the command bin_scenes dataset", told.stderr.splitlines()[-1])
         with tempfile.TemporaryDirectory() as folder:
             request = pathlib.Path(folder) / "request.yaml"
             request.write_text(json.dumps(nuts(5)))
