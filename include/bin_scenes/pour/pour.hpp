@@ -29,7 +29,7 @@ struct RunHooks {
   /// each multiple of 1 / `trace_rate` (Hz of simulated time; at most once per step), and at the end.
   std::function<void(std::size_t scene, double time, const std::vector<BodyState>&)> trace;
   double trace_rate = 0.0;
-  /// Called before `trace` with the contacts at the same time (Solver::contact_forces()).
+  /// Receives the contacts (Solver::contact_forces()) of the same instant as `trace`, which is called after it.
   std::function<void(const std::vector<ContactForce>&)> trace_contacts;
 };
 
