@@ -4,7 +4,7 @@
 #ifndef __cplusplus
 #define group_index() (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
 #define thread_index() (group_index() * gl_WorkGroupSize.x + gl_LocalInvocationIndex)
-// Arguments of an indirect dispatch.
+// Returns the arguments of an indirect dispatch of that many groups, folded over x and y.
 uvec3 folded_groups(uint groups) {
   uint x = min(groups, 65535u);
   return uvec3(x, x == 0u ? 0u : (groups + x - 1u) / x, 1u);

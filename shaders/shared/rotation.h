@@ -10,12 +10,12 @@ vec3 rotate(vec4 q, vec3 v) {
   vec3 t = 2.0 * cross(q.xyz, v);
   return v + q.w * t + cross(q.xyz, t);
 }
-// Symmetric matrix (xx yy zz), (xy xz yz) times v.
+// Returns the product of a symmetric matrix with v. diagonal: elements xx, yy, zz; mixed: elements xy, xz, yz.
 vec3 symmetric_times(vec3 diagonal, vec3 mixed, vec3 v) {
   return diagonal * v + vec3(mixed.x, mixed.x, mixed.y) * v.yxx + vec3(mixed.y, mixed.z, mixed.z) * v.zzy;
 }
-// Rotation by the vector `turn` (rad). Half angles of up to 0.5 rad use the power series: on some hardware, sin and cos
-// have an absolute error of 5e-7, which is 1e-4 of the angle by which a slow part turns in a step.
+// Returns the quaternion of a rotation vector (rad). Half angles of up to 0.5 rad use the power series: on some
+// hardware, sin and cos have an absolute error of 5e-7, which is 1e-4 of the rotation of a slow part in a step.
 vec4 quat_of_turn(vec3 turn) {
   vec3 h = 0.5 * turn;
   float x2 = dot(h, h);

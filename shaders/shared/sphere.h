@@ -1,6 +1,6 @@
 // Data of the default solver `sphere` as shaders and C++ see it. Lengths are in m and axes are those of the world
 // unless stated otherwise. Indices of pairs and manifold slots count within their world, so that all regions of a world
-// can be moved together.
+// can be moved together. The size of a part is its diagonal, at most 50 times its thickness (sphere::Shape::size).
 #ifndef SHARED_SPHERE_H
 #define SHARED_SPHERE_H
 #include "shared/sphere/constants.h"
@@ -41,78 +41,78 @@
 #define BIND_SEEN 38
 #define BIND_TOUCHES 39
 
-#define SPHERE_JOB_GROUP 64         // invocations of a group that decides about pairs, one pair each
+#define SPHERE_JOB_GROUP 64         // number of invocations in a group of list_jobs; each of them processes one pair
 #ifndef SPHERE_PAIR_GROUP
-#define SPHERE_PAIR_GROUP 64        // invocations of a group that processes pairs (Capacity::pair_group)
+#define SPHERE_PAIR_GROUP 64        // number of invocations in a group that processes pairs (Capacity::pair_group)
 #endif
 #ifndef SPHERE_WORLD_GROUP
-#define SPHERE_WORLD_GROUP 64       // invocations of a group that processes a world (Capacity::world_group)
+#define SPHERE_WORLD_GROUP 64       // number of invocations in a group that processes a world (Capacity::world_group)
 #endif
-#define SPHERE_PREPARE_GROUP 64     // invocations of a group that prepares rows
-#define SPHERE_PREPARE_GROUPS 8u    // number of such groups per world
-#define SPHERE_GROUP_JOBS 16        // pairs after which a group ends: llvmpipe lets no invocation make more than 65,535
-                                    // iterations in all its loops together, and then silently ends each loop after one
-#define SPHERE_MAX_BODIES 384       // bodies of a world that one group can solve: their velocities fill 24 of 32 KiB of
-                                    // shared memory
-#define SPHERE_RIGID 2u             // index of the softness of rigid contacts, which a probe uses
-#define SPHERE_SLEEP_BY_ISLAND 0u  // Phase::Sleep
+#define SPHERE_PREPARE_GROUP 64     // number of invocations in a group of the pass prepare_rows
+#define SPHERE_PREPARE_GROUPS 8u    // number of groups of prepare_rows for each world
+#define SPHERE_GROUP_JOBS 16        // number of pairs after which a group ends: on llvmpipe, an invocation has at most
+                                    // 65,535 iterations in all loops, and then each loop silently ends after one
+#define SPHERE_MAX_BODIES 384       // largest number of bodies of a world, which one group solves: their velocities
+                                    // fill 24 of 32 KiB of shared memory
+#define SPHERE_RIGID 2u             // index of rigid contacts in SphereSettingsBlock.softness; a probe uses them
+#define SPHERE_SLEEP_BY_ISLAND 0u  // values of SphereProgress.sleep, as in the enumeration Phase::Sleep
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // largest number of clusters of a part at one resolution
-#define SPHERE_CHAINS 8             // a job's candidates form so many linked lists, each of which one invocation reads
+#define SPHERE_CHAINS 8             // number of linked lists of the candidates of a job; one invocation reads each list
 
-#define SPHERE_SAMPLE_KINDS 4u      // kinds of samples that wait apart, so that neighbours do the same work
-#define SPHERE_SAMPLE_DESCENDS 0u   // an edge whose deepest point is between its ends
-#define SPHERE_SAMPLE_CROSSES 1u    // another edge
-#define SPHERE_SAMPLE_SLIDES 2u     // a node of a curved face
-#define SPHERE_SAMPLE_RESTS 3u      // another node
+#define SPHERE_SAMPLE_KINDS 4u      // number of kinds of samples; each has a list, so that a warp does equal work
+#define SPHERE_SAMPLE_DESCENDS 0u   // kind of a sample: an edge whose deepest point is between its ends
+#define SPHERE_SAMPLE_CROSSES 1u    // kind of a sample: any other edge
+#define SPHERE_SAMPLE_SLIDES 2u     // kind of a sample: a node of a curved face
+#define SPHERE_SAMPLE_RESTS 3u      // kind of a sample: any other node
 
 #define SPHERE_NO_COLOR 0xffffffffu  // color of a pair without contacts to solve
 
-#define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // index of the ground of a world, after all bodies
+#define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // index of the ground among the bodies of a world while it is solved
 
-// SphereOrdered.kind.
-#define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce
+// Flags of a manifold in SphereOrdered.kind.
+#define SPHERE_STRIKES 1u    // a contact of the manifold closes fast enough to bounce
 #define SPHERE_BOUNCES 2u    // in addition, the contact has pressed, so that it bounces at the end of the step
-#define SPHERE_REFRESHED 4u  // a contact strikes, and neither body is a ball: the contacts are found again in the next
-                             // step
-#define SPHERE_RESTITUTES 8u // the restitution is above 0
+#define SPHERE_REFRESHED 4u  // a contact strikes, and neither body is a ball: each sub-step computes the lever arms and
+                             // masses of the contacts again at the present poses
+#define SPHERE_RESTITUTES 8u // the coefficient of restitution of the manifold is above 0
 
-// A row is the data of one contact in three vec4: normal and effective mass along it (kg); lever arm of a and effective
-// mass along the tangents; lever arm of b and the gap (m) when the contact was found. The impulses of a contact are
+// A row is the data of one contact in three vec4: normal and effective mass along it (kg); lever arm of a (m) and mass
+// along the tangents (kg); lever arm of b (m) and gap (m) at the start of the step. The impulses (N s) of a contact are
 // three vec2 at the same position of a separate buffer, so that rows are not written during sweeps: normal impulse and
 // gap (m); friction along x and y; friction along z and the normal impulse with which the sub-step started. The last
 // value is negative (-0 for 0) if the contact has pressed in this step.
 #define SPHERE_ROW_PARTS 3u
-#define SPHERE_ROW_BLOCK 32u  // manifolds whose rows are interleaved part by part, so that the reads of their
-                              // invocations are contiguous
+#define SPHERE_ROW_BLOCK 32u  // number of manifolds whose rows are interleaved part by part, so that their invocations
+                              // read contiguous memory
 
-// Sweeps of the solve over all manifolds.
+// Kinds of sweeps of the solve over all manifolds.
 #define SWEEP_PUSH 0u
 #define SWEEP_RELAX 1u
-#define SWEEP_FIRST_PUSH 2u  // from here on, a sweep does more than pushing contacts apart
+#define SWEEP_FIRST_PUSH 2u  // this kind and the next ones do more than apply normal and friction impulses
 #define SWEEP_FIRST_RELAX 3u
-#define SWEEP_WARM_START 4u  // from here on, a sweep does not push
+#define SWEEP_WARM_START 4u  // this kind and the next one do not solve for normal and friction impulses
 #define SWEEP_BOUNCE 5u
 
-// Buffers of the samples of a part that no struct describes; shaders/sphere/samples.h reads them.
+// Layout of the buffers of edges and normal cones, for which there is no struct; shaders/sphere/samples.h reads them.
 // An edge is four words: its two nodes, its normal cone, and its length (m, as the bits of a float; negative if no two
 // faces meet at the edge). The edges of a part are followed by the lists of the edges near a point (EdgeGrid).
-// A normal cone is one word: (index of its vectors after the nodes << 3) | number of its bounds. 0 bounds means all
-// directions; SPHERE_AXIS means one axis.
+// A normal cone is one word: (index of its first vector in the list of nodes << 3) | number of its bounding planes. The
+// number 0 stands for a cone of all directions, and SPHERE_AXIS for a circular cone with an axis.
 
-// SphereState.flags.x
+// Bits of SphereState.flags.x.
 #define SPHERE_PRESENT 1u
 #define SPHERE_ASLEEP 2u
 #define SPHERE_OUTSIDE 4u  // the body has left the bin, and the host removes it
 
-// SphereProgress.overflow: the world stays in the state before the step until the host has enlarged the buffer.
+// Bits of SphereProgress.overflow: the world stays in the state before the step until the host has enlarged the list.
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
 #define SPHERE_ROW_OVERFLOW 4u
 #define SPHERE_SAMPLE_OVERFLOW 8u
 
-// SphereAsk.flags, as in WatchAsk (solver/world_watch.hpp). COUNTED: the host has read the counters of SphereProgress.
+// Bits of SphereAsk.flags, as in WatchAsk (solver/world_watch.hpp); COUNTED: counters of SphereProgress restart at 0.
 #define SPHERE_REST_ANEW 1u
 #define SPHERE_ENERGY_ANEW 2u
 #define SPHERE_DRIVEN 4u
@@ -123,262 +123,262 @@
 GPU_STRUCTS_BEGIN
 
 struct SphereSettingsBlock {
-  float time_step;         // s, before it is cut
-  uint sub_steps;
-  float push_speed;        // diagonals of the part per second
-  float margin, recycle, rest_move;  // in diagonals
-  float restitution_speed; // m/s
-  float rest_window;       // s
-  uint samples, candidates;  // capacity of these lists
+  float time_step;         // s: length of a step that is not shortened for fast parts
+  uint sub_steps;          // number of sub-steps in a step, before SphereProgress.refinement multiplies it
+  float push_speed;        // largest speed at which overlap is removed (sizes of the smallest part per second)
+  float margin, recycle, rest_move;  // in sizes: search distance of contacts, move that ends recycling, move at rest
+  float restitution_speed; // m/s: a slower impact does not bounce
+  float rest_window;       // s: a body that stays at rest for this time may fall asleep
+  uint samples, candidates;  // capacities of the list of samples and of the list of candidates
   uint contact_groups;     // number of groups that process pairs at the same time
-  float coarse_recycle;    // in diagonals: `recycle` for coarse samples
-  uint sweeps;             // sweeps over all contacts before bodies move, and as many after; with rigid contacts, 1
-                           // after
-  uint cold_sweeps;        // sweeps in the first steps of a world
-  float patch_radius;      // in diagonals: radius of contact at a point or along a line
+  float coarse_recycle;    // value that replaces `recycle` while coarse samples are used (sizes of the smaller part)
+  uint sweeps;             // number of sweeps in a sub-step before bodies move, and as many after; with rigid
+                           // contacts, 1 sweep after
+  uint cold_sweeps;        // value that replaces `sweeps` in the first steps of a world
+  float patch_radius;      // radius of the friction patch of a point or line contact (sizes of the smallest part)
   uint cut_steps;          // 1: steps are shortened for fast parts
-  float probe_slip;        // s without friction at the start of a step that begins without forces
-  float touch_move;        // in diagonals: rest_move if bodies sleep by touch
-  vec4 softness[3];        // by Stiffness: rate (as a share of the sub-step rate), damping ratio, slop (diagonals),
-                           // sub-steps in place of one
+  float probe_slip;        // s: time without friction at the start of a probe, which has no remembered forces
+  float touch_move;        // value that replaces `rest_move` if bodies sleep by touch (sizes of the part)
+  vec4 softness[3];        // by Stiffness: frequency of the contact spring x length of a sub-step, damping ratio, slop
+                           // (overlap that remains, in sizes of the smallest part), factor on the number of sub-steps
 };
 
 struct SphereWorld {
-  uvec4 bodies;   // first body, number of bodies, words in a row of the neighbour bits, first word; the bits are
-                  // followed by sphere/listed.h
-  uvec4 pairs;    // first pair and capacity; first plane and number of planes
-  uvec4 rows;     // first row and capacity; largest number of sweeps while an impact propagates: z in a step with an
-                  // impact, w otherwise
-  vec4 gravity;   // m/s2; w: size of the smallest part
-  vec4 ground;    // friction, restitution, height of the walls (m); w: thickness of the thinnest part (m)
+  uvec4 bodies;   // index of the first body, number of bodies; in the buffer Near: number of words in a row of the
+                  // neighbour bits, and index of their first word. The list of pairs follows them (sphere/listed.h)
+  uvec4 pairs;    // index of the first pair, and number of pairs for which there is room; first plane, number of planes
+  uvec4 rows;     // index of the first row, number of rows for which there is room; largest number of sweeps in a
+                  // sub-step until all contacts are solved: z in a step with an impact, w otherwise
+  vec4 gravity;   // acceleration of gravity (m/s2); w: size of the smallest part (m)
+  vec4 ground;    // friction and restitution of the bin, height of its walls (m), thickness of the thinnest part (m)
   vec4 tolerance; // m/s: a contact is solved when a sweep changes its speed by no more than this; x in a step without
                   // an impact, y with one
 };
 
 // The state of a world between steps. The host reads it every few steps.
 struct SphereProgress {
-  uint steps_left, steps, overflow, need;    // need: required capacity of the list that overflowed
-  uint page, pairs, free_slots, refresh;     // pair list in use and its length; refresh: contacts of the last step are
-                                             // invalid
-  uint fine, stiffness, ordered, rows;       // samples in use, softness in use, number of manifolds to solve, number of
-                                             // rows of the step
-  float time_step;                           // s, of this step
-  uint cuts_left;                            // shortened steps that are left of a whole step
+  uint steps_left, steps, overflow, need;    // steps to do; steps done; full lists; required capacity of the full list
+  uint page, pairs, free_slots, refresh;     // pair list in use (0 or 1), its length, unused manifold slots; refresh: 1
+                                             // if the contacts of the last step are invalid
+  uint fine, stiffness, ordered, rows;       // 1 if the fine samples are used; index of the softness; number of
+                                             // manifolds to solve; number of rows that the step needs
+  float time_step;                           // s: length of this step
+  uint cuts_left;                            // number of shortened steps that remain of a whole step
   uint cold_steps;                           // number of remaining steps with more sweeps (see cold_sweeps)
   float friction_share;                                // factor of all coefficients of friction
-  uint forgets;                              // the next step begins without the forces of the last one
-  uint refinement, effort;                   // sub-steps in place of one; factor of the number of sweeps
-  uint listed;                               // entries of the list of pairs that may come near; 0: the list must be
-                                             // made
+  uint forgets;                              // 1: the next step begins without the contact forces of the last one
+  uint refinement, effort;                   // factor of the number of sub-steps; factor of the number of sweeps
+  uint listed;                               // number of entries in the list of pairs that may come near each other; 0:
+                                             // the list must be made
   uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
-  // Counters, since the host last observed it.
+  // Counters of the work since the host last read this struct.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
   uint need_candidates;  // required capacity of the list of candidates
-  uint base_colors, base_waste;  // when all manifolds were last colored: number of colors, and how long invocations
-                                 // wait for each other
-  uint lists_made, colorings;        // counters: lists of pairs that may come near, and colorings of all manifolds
-  // When it is read back, the states follow it, so that its size is a multiple of 16 bytes.
+  uint base_colors, base_waste;  // when all manifolds were last colored: number of colors, and 1024 x sum over blocks
+                                 // of the visits of the longest manifold / number of all visits
+  uint lists_made, colorings;        // numbers of lists of near pairs made, and of colorings of all manifolds
+  // The states of bodies follow this struct when it is read back. Its size is therefore a multiple of 16 bytes.
 };
 
-// The deepest contact of a world since the host last asked for it, and impacts: Solver::take_worst_contact().
+// The deepest contact of a world since the host last asked for it (Solver::take_worst_contact()), and unsolved impacts.
 struct SphereWorst {
-  uint a, b;        // bodies of the world; b may be SPHERE_GROUND
-  float depth;      // m
+  uint a, b;        // indices of the two bodies in the world; b may be SPHERE_GROUND
+  float depth;      // depth of the overlap (m)
   float relative;   // depth / diagonal of the smaller part; 0: no contact
-  float ago;        // s since the start of the step with that contact
-  uint unresolved;  // sub-steps whose sweeps ended before an impact was solved
+  float ago;        // simulated time since the start of the step with that contact (s)
+  uint unresolved;  // number of sub-steps whose sweeps ended before an impact was solved
   uint unused0, unused1;
 };
 
 // The tasks of a world: steps to simulate, and what to observe (WatchAsk and WatchRules in solver/world_watch.hpp).
 struct SphereAsk {
-  uint steps, flags, observation;  // observation: number of the requested observation; 0: none
-  float seconds;
-  uvec4 since;
-  vec4 lower;       // m; w: rest_move, diagonals
-  vec4 upper;       // m; w: rest_turn, rad
-  uint rested, unused0, unused1, unused2;
+  uint steps, flags, observation;  // number of steps, SPHERE_REST_ANEW etc., number of the observation (0: none)
+  float seconds;    // s since the last observation
+  uvec4 since;      // numbers of four observations (WatchAsk::since)
+  vec4 lower;       // lower bounds of the bin (m); w: a body that moves farther is not at rest (diagonals of the part)
+  vec4 upper;       // upper bounds of the bin (m); w: a body that turns further is not at rest (rad)
+  uint rested, unused0, unused1, unused2;  // rested: WatchAsk::rested
 };
 
 // The results that the host reads after each begin(): WatchSeen, and the remaining steps.
 struct SphereSeen {
-  uint left;        // remaining steps, and SPHERE_BLOCKED
-  uint observation, outside, fast, awake, unrested;
-  uint moved01, moved23;  // two counts each, the first one in the lower 16 bits
+  uint left;        // number of remaining steps | SPHERE_BLOCKED
+  uint observation, outside, fast, awake, unrested;  // members of the same names in WatchSeen
+  uint moved01, moved23;  // WatchSeen::moved: two counts in each word, the first one in the lower 16 bits
 };
 
 // Data that the observer stores for a body. A position (m) has a second vector with the part that single precision
 // loses.
 struct SphereWatched {
-  vec4 still, still_rest, still_orientation;  // pose to which rest is compared (RestWatch)
-  vec4 before, before_rest;  // position at the last observation; w: kinetic energy (J), and speed (m/s)
-  vec4 least, least_rest;    // position when the energy of all bodies was lowest; w: kinetic energy then, and the
-                             // largest since then (J)
-  vec4 audited;              // speed of the body's fastest point at the last observation (m/s); second value: 1 if its
-                             // energies are known
+  vec4 still, still_rest, still_orientation;  // pose near which the body has stayed since it last moved (RestWatch)
+  vec4 before, before_rest;  // position at the last observation; before.w: kinetic energy (J); _rest.w: speed (m/s)
+  vec4 least, least_rest;    // position when the energy of all bodies was lowest (m); least.w: kinetic energy of the
+                             // body at that time (J); least_rest.w: its largest kinetic energy since then (J)
+  vec4 audited;              // x: speed of the body's fastest point at the last observation (m/s); y: 1 if the members
+                             // above have values
 };
 
 // The largest gains of energy since their observation started (EnergyReport and WorldEnergy). Observations are
 // counted from 1; 0 means that there is no observation.
 struct SphereAudit {
-  float gain;       // in units of m g d (mass, gravity, diagonal)
-  uint gainer, gain_observation;
-  float ratio;      // ratio of speeds
-  uint thrown, beside, ratio_observation;
-  float world_gain;  // in units of m g d summed over the bodies that moved
-  uint world_observation;
+  float gain;       // largest gain of one body, in units of m g d (mass x gravity x diagonal)
+  uint gainer, gain_observation;  // index of that body in the world, and number of the observation
+  float ratio;      // speed of the body that was thrown / highest earlier speed of the bodies near it
+  uint thrown, beside, ratio_observation;  // that body, the body nearest to it, and number of the observation
+  float world_gain;  // largest gain of all bodies together, in units of m g d summed over the bodies that moved
+  uint world_observation;  // number of the observation with that gain
   uint begins;      // 1: the observation of the total energy starts again with the next observation
   uint unused0, unused1;
 };
 
 struct SphereBody {
-  uvec4 ids;        // shape, world
-  vec4 material;    // inverse mass (0: fixed), friction, restitution, diagonal of the bounding box (m)
+  uvec4 ids;        // x: index of the shape; y: index of the world
+  vec4 material;    // inverse mass (1/kg; 0: fixed), friction, restitution, diagonal of the bounding box (m)
 };
 
 struct SphereState {
   vec4 position;     // centre of mass (m)
   vec4 orientation;  // x, y, z, w; from body to world axes
-  vec4 velocity;     // m/s
-  vec4 spin;         // rad/s
-  vec4 still_position;     // pose to which rest is compared; w: s spent near it
-  vec4 still_orientation;
-  vec4 position_rest, velocity_rest;  // the parts of position and velocity that single precision loses: add_exactly
-  uvec4 flags;       // bits; label of the island; 1: it was inserted again; last observation in which it moved
-                     // (world_watch.hpp)
+  vec4 velocity;     // velocity of the centre of mass (m/s)
+  vec4 spin;         // angular velocity (rad/s)
+  vec4 still_position;     // position near which the body has stayed since it last moved (m); w: time spent there (s)
+  vec4 still_orientation;  // orientation of the body at that position
+  vec4 position_rest, velocity_rest;  // remainders of position and velocity that single precision loses: add_exactly
+  uvec4 flags;       // x: SPHERE_PRESENT etc.; y: label of the island; z: 1 if the body was inserted again; w: number
+                     // of the last observation in which it had moved (world_watch.hpp)
 };
 
-struct SphereTensor {  // values at the time when contacts were found
-  vec4 diagonal, mixed;  // inverse inertia, world axes
-  vec4 orientation;      // xyzw, body -> world
-  vec4 velocity, spin;   // m/s, rad/s
+struct SphereTensor {  // values of a body at the time when contacts were found
+  vec4 diagonal, mixed;  // inverse inertia tensor in world axes (1/(kg m2)): xx, yy, zz, and xy, xz, yz
+  vec4 orientation;      // quaternion x, y, z, w from body to world axes
+  vec4 velocity, spin;   // velocity of the centre of mass (m/s), angular velocity (rad/s)
 };
 
 struct SpherePlane {
-  vec4 plane;        // normal . p >= w outside the solid
+  vec4 plane;        // xyz: unit normal, w: offset (m); a point p outside the solid has normal . p >= offset
   uvec4 wall;        // x: 1 if the plane ends at the height of the walls
 };
 
 struct SphereSamples {
-  uvec4 nodes;       // first node and count; first edge and count. The nodes are followed by the ends of creases and
-                     // the vectors of normal cones
-  uvec4 clusters;    // first cluster and count; z: edges from this index on are creases
-  uvec4 blocks;      // lists of the edges near a point: first word of the table and of the lists (four words each),
-                     // blocks along x, and blocks of a layer along x and y
+  uvec4 nodes;       // index of the first node, number of nodes; index of the first edge, number of edges. In the list
+                     // of nodes, the ends of creases and the vectors of normal cones follow the nodes
+  uvec4 clusters;    // index of the first cluster, number of clusters; z: edges from this number on are creases
+  uvec4 blocks;      // lists of the edges near a point: first element of the table and of the lists (four words each),
+                     // number of blocks along x, and number of blocks in a layer along x and y
   vec4 size;         // radius of the nodes, longest piece of an edge, mean distance between neighbours on faces, and
                      // largest height by which a curved face may bulge between its nodes (m)
 };
 
 struct SphereShape {
   SphereSamples coarse, fine;
-  vec4 box_center;   // body axes; w: largest distance of a node from the centre of mass (m)
-  vec4 box_half;     // w: size (m)
-  vec4 inertia, inertia_mixed;                  // per mass, body axes: xx yy zz, xy xz yz (m2)
-  vec4 inverse_inertia, inverse_inertia_mixed;  // 1/m2
-  vec4 origin;       // origin of the field's grid; w: edge length of a cell (m)
-  vec4 field;        // 1 / cell, padding, and the radius if the part is a ball
-  uvec4 grid;        // numbers of values along x, y, z; index of the first element of its grid in Fields (shape_table.cpp)
+  vec4 box_center;   // centre of the bounding box, body axes (m); w: largest distance of a node from the centre of mass
+  vec4 box_half;     // half extents of the bounding box (m); w: sphere::Shape::size (m)
+  vec4 inertia, inertia_mixed;                  // inertia tensor / mass, body axes: xx yy zz, xy xz yz (m2)
+  vec4 inverse_inertia, inverse_inertia_mixed;  // inverse of that tensor, same order (1/m2)
+  vec4 origin;       // first point of the field's grid, body axes (m); w: edge length of a cell (m)
+  vec4 field;        // 1 / edge length of a cell (1/m), padding of the grid (m), radius of a ball (m; 0: no ball)
+  uvec4 grid;        // number of values along x, y, z; index of the first element of the grid in the buffer Fields
 };
 
 struct SphereNode {
-  vec3 place;        // position in body axes, or a vector of a normal cone
-  uint cone;         // normal cone of a node; for an axis, the bits of its spread (rad)
+  vec3 place;        // position in body axes (m), or a unit vector of a normal cone
+  uint cone;         // normal cone of a node (see above); for the axis of a cone, its half angle (rad, bits of a float)
 };
 
 struct SphereCluster {
-  vec4 ball;         // bounding sphere of the nodes and of the edges that start at them
-  uvec4 edges;       // first edge, and end; counted within the part
+  vec4 ball;         // bounding sphere of its nodes and of the edges that start at them: centre (body axes), radius (m)
+  uvec4 edges;       // x: number of the first edge that starts at its nodes, y: end of these edges; within the part
 };
 
-struct SphereBox {     // the upright box that a body does not leave while the list of pairs that may come near is valid
-  vec3 center;
-  uint first;          // first entry of the list with this body as its first one
-  vec3 half_size;      // negative if the body was absent
-  uint end;
+struct SphereBox {     // the axis-aligned box that a body must not leave while the list of near pairs is valid
+  vec3 center;         // m
+  uint first;          // index of the first entry of that list with this body as the first one of the pair
+  vec3 half_size;      // half extents (m), negative if the body was absent
+  uint end;            // end of the entries that begin at `first`
 };
 
 struct SpherePair {
   uint a, b;         // indices among the bodies of all worlds, a < b; b may be SPHERE_GROUND
   uint slot;         // slot of the manifold within the world
-  uint color;
+  uint color;        // color of the manifold, or SPHERE_NO_COLOR
 };
 
 struct SphereManifold {
-  uvec4 state;       // number of contacts, number of pressing contacts, whether they were found, and the expected
-                     // number of contact visits of a sweep
-  vec3 found_position;     // position of b in the frame of a when contacts were found
+  uvec4 state;       // number of contacts, number of pressing contacts, 1 if contacts were found at the pose below, and
+                     // number of visits of contacts that a sweep is expected to need
+  vec3 found_position;     // position of b in the frame of a when contacts were found (m); ground: a in the bin frame
   uint unused;
-  vec4 found_orientation;
+  vec4 found_orientation;  // orientation (x, y, z, w) of b relative to a at that time
 };
 
 // Contact k of a manifold is at index SPHERE_MAX_CONTACTS * (index of the manifold) + k.
 struct SphereContact {
-  vec3 anchor_a;     // on the surface of a, body axes
-  uint feature;
-  vec3 anchor_b;
-  float approach;    // m/s, negative: the speed with which the surfaces meet if they do so in this step; prepare_rows
-                     // writes it
-  vec4 normal;       // from a to b, in the frame of the body whose field determined it
-  vec4 force;        // N, on b: normal force, and friction in world axes
+  vec3 anchor_a;     // contact point on the surface of a, in the frame of a (m)
+  uint feature;      // number of the sample, with the bits SPHERE_SIDE_B, SPHERE_EDGE and SPHERE_TURNED
+  vec3 anchor_b;     // contact point on the surface of b, in the frame of b (m)
+  float approach;    // normal speed with which the surfaces meet if they meet in this step (m/s, negative if they
+                     // approach each other); prepare_rows computes it
+  vec4 normal;       // unit normal from a to b, in the frame of the body whose field determined it
+  vec4 force;        // force on b (N): x: normal force; yzw: friction force in world axes
 };
 
 // A manifold that is solved in this step. Manifolds are in order of color; within a color, those that need most contact
 // visits come first. Part p of row k of manifold l in a block of `stride` manifolds (SPHERE_ROW_BLOCK, or fewer in the
 // last block of a color) is at row + (k SPHERE_ROW_PARTS + p) stride, where row = l + the first row of the block.
-// Sweeps solve the contacts that may press (shaders/sphere/near.h).
+// Sweeps solve only the contacts that may press in the present sub-step (shaders/sphere/near.h).
 struct SphereOrdered {
   uint bodies;       // a | b << 16, counted within the world; b may be SPHERE_GROUND_BODY
-  uint row;          // index within the world, in vec4
-  uint kind;         // flags | contacts << 8 | stride << 12 | a bit for each contact that may press << 24
-  float slack;       // m, lower bound of the gaps of all other contacts
-  float arm;         // m, longest lever arm of a contact
-  float friction;    // coefficient of friction, including the share of the phase
-  float yield;       // 1/kg, largest change of the speed at one contact by an impulse at another one
-  uint slot;         // of the manifold, in the world
+  uint row;          // index of the first row of the manifold within the rows of the world, counted in vec4
+  uint kind;         // flags | number of contacts << 8 | stride << 12 | a bit for each contact that may press << 24
+  float slack;       // m, lower bound of the gaps of the contacts that cannot press
+  float arm;         // m, longest lever arm of a contact of the manifold
+  float friction;    // coefficient of friction of the pair, without SphereProgress.friction_share
+  float yield;       // 1/kg, largest change of the speed at one contact per unit of impulse at another one
+  uint slot;         // slot of the manifold within the world
 };
 
-// A pair whose contacts are to be found. Its candidates have no order, and no result depends on one.
+// A pair of bodies whose contacts are found anew in this step. The order of its candidates influences no result.
 struct SphereJob {
   uint pair;         // index in the list of pairs
-  uint incomplete;   // 1: there was no room for some of its samples or candidates
-  uint chains[SPHERE_CHAINS];  // last candidate of each chain; 0: none, as in all chains between steps
+  uint incomplete;   // 1: there was no room for some of the samples or candidates of the pair
+  uint chains[SPHERE_CHAINS];  // index of the last candidate of each chain; 0: none, as in all chains between steps
 };
 
 // A node or an edge of one body of a pair that is near the other body.
 struct SphereSample {
-  uint job;
-  uint feature;      // SPHERE_SIDE_B: it belongs to b
+  uint job;          // index of the pair in the list of jobs
+  uint feature;      // number of the node or edge | SPHERE_SIDE_B if it belongs to b | SPHERE_EDGE if it is an edge
 };
 
-// Where such a sample, or its edge, is deepest.
+// The point of such a sample, or of its edge, that is deepest in the other body.
 struct SphereTouch {
-  uint job;
-  uint feature;
-  float distance;    // m
+  uint job;          // index of the pair in the list of jobs
+  uint feature;      // number of the node or edge, with the bits SPHERE_SIDE_B and SPHERE_EDGE as in SphereSample
+  float distance;    // distance of the point from the surface of the other body (m); negative inside
   uint unused;
-  vec4 point;        // frame of the field
-  vec4 gradient;
+  vec4 point;        // position in the frame of the other body (m)
+  vec4 gradient;     // unit gradient of the distance field of the other body at the point, in its frame
 };
 
 struct SphereCandidate {
   vec3 on_a;         // m, point on the surface of a, in the frame of a
-  float separation;  // m
+  float separation;  // distance of the two surfaces along the normal (m); negative: depth of the overlap
   vec3 normal;       // unit normal from a to b, in the frame of a
   float apart;       // m, distance from the nearest selected candidate; negative: selected, or a duplicate of a
                      // selected one
-  uint feature, known;  // known: 1 if it was a contact in the last step
-  uint next;         // next candidate of its chain; 0: none
+  uint feature, known;  // as in SphereContact; known: 1 if the last step had a contact with this feature
+  uint next;         // index of the next candidate of its chain; 0: none
   uint unused;
 };
 
-struct SphereStatus {  // stored before the list of jobs
-  uint jobs, samples, candidates;  // counts; those of samples and candidates may exceed the capacity
-  uint next_job, next_choice, touches;
-  uint sample_blocks, unused;        // sample_blocks: groups that test samples of one kind each
-  uint sample_kinds[SPHERE_SAMPLE_KINDS];  // counts of each kind (sphere/sample_kinds.h)
+struct SphereStatus {  // lengths of the lists of a step over all worlds; stored before the list of jobs
+  uint jobs, samples, candidates;  // lengths; those of samples and candidates may exceed the capacity
+  uint next_job, next_choice, touches;  // next job of collect_samples and of choose_contacts; number of touches
+  uint sample_blocks, unused;        // sample_blocks: number of groups of test_samples; each tests samples of one kind
+  uint sample_kinds[SPHERE_SAMPLE_KINDS];  // number of samples of each kind (sphere/sample_kinds.h)
   uvec4 groups, sample_groups, touch_groups;  // arguments of indirect dispatches over jobs, samples and touches
 };
 

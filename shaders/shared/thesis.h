@@ -1,6 +1,6 @@
 // Data of the solver `thesis` as shaders and C++ see it. Lengths are in m, in world axes. Data that never changes
-// (Body, Shape, Sphere), data that the solver changes (State) and data that a step leaves behind (the rest) are
-// separate, so that saving a step means copying State only.
+// (Body, Shape, Sphere), data that the solver changes (State) and results of a step (the rest) are separate, so that
+// saving a step means copying State only.
 #ifndef SHARED_THESIS_H
 #define SHARED_THESIS_H
 #include "shared/types.h"
@@ -30,13 +30,13 @@
 #define BIND_STATUS 21
 #define BIND_NEEDS 22
 
-#define THESIS_GROUP 64           // invocations of the passes over spheres or bodies
-#define THESIS_BODY_GROUP 32      // invocations that gather one body's impulses
+#define THESIS_GROUP 64           // number of invocations in a work group of the passes over spheres or bodies
+#define THESIS_BODY_GROUP 32      // number of invocations that add up the impulses of one body
 
-#define THESIS_NO_KEY 0xffffffffu  // empty slot of the neighbour table
-#define THESIS_NODE 0x80000000u    // marks a lattice node of a sheet instead of a stored sphere
+#define THESIS_NO_KEY 0xffffffffu  // key of an empty slot of a neighbour table
+#define THESIS_NODE 0x80000000u    // bit of a sphere index or key: it denotes a lattice node of a sheet, or the sheet
 
-// Bits of Status.overflow, one per stage.
+// Bits of ThesisStatus.overflow: the list that was too short.
 #define THESIS_CONTACT_OVERFLOW 1u
 #define THESIS_NEIGHBOUR_OVERFLOW 2u
 #define THESIS_SLOT_OVERFLOW 4u
@@ -44,105 +44,105 @@
 GPU_STRUCTS_BEGIN
 
 struct ThesisSettingsBlock {
-  float time_step;        // s, of one step
-  float bias;             // beta / time_step (1/s)
-  float slop;             // depth left alone / radius of the smaller sphere
-  uint modified_normals;  // 0 or 1
-  uint bodies;
-  uint spheres;           // all; the first moving_spheres of them belong to bodies that move
+  float time_step;        // length of one step (s)
+  float bias;             // factor beta of the bias velocity / time_step (1/s)
+  float slop;             // depth of overlap that is not removed / radius of the smaller sphere
+  uint modified_normals;  // 1: contacts use the normals of the true surface; 0: the lines between centres
+  uint bodies;            // number of bodies
+  uint spheres;           // number of all spheres; the first moving_spheres of them belong to bodies that move
   uint moving_spheres;
-  uint cells;
-  uint capacity;          // contacts kept per sphere
-  uint neighbour_slots;   // per body, power of two
-  uint slots;             // for the contacts of all spheres together
-  uint iterations;        // impulse and velocity passes per step
+  uint cells;             // number of cells of the collision grids of all worlds
+  uint capacity;          // largest number of contacts that are kept for one sphere
+  uint neighbour_slots;   // number of slots in the neighbour table of a body, a power of two
+  uint slots;             // number of contacts for which there is room, of all spheres together
+  uint iterations;        // number of times that the impulse and velocity passes run in a step
 };
 
 struct ThesisWorld {
-  vec4 gravity;  // m/s2; w: normal speed below which restitution is 0
-  vec4 origin;   // corner of cell 0; w: 1 / cell edge
-  uvec4 grid;    // cells along x, y, z; first cell of this world
-  uvec4 sheets;  // first, count
+  vec4 gravity;  // acceleration of gravity (m/s2); w: approach speed (m/s) up to which a contact does not bounce
+  vec4 origin;   // corner of cell 0; w: 1 / edge length of a cell (1/m)
+  uvec4 grid;    // number of cells along x, y, z; w: index of the first cell of this world
+  uvec4 sheets;  // x: index of the first sheet, y: number of sheets
 };
 
-// A plane of the bin made of equal static spheres on a square lattice. The nodes are computed where a sphere comes
-// near instead of being stored: an endless floor costs nothing.
+// A plane of the bin that consists of equal static spheres on a square lattice. The positions of these spheres (nodes)
+// are computed near other spheres only and are not stored. An endless floor therefore needs no memory.
 struct ThesisSheet {
-  vec4 origin;   // of the lattice, on the plane of the sphere centres; w: sphere radius
-  vec4 normal;   // unit, into the bin; w: lattice pitch
-  vec4 u;        // unit, lattice axis; w: half extent along it
-  vec4 v;
+  vec4 origin;   // origin of the lattice, in the plane of the sphere centres; w: radius of the spheres
+  vec4 normal;   // unit normal of the plane, into the bin; w: distance between neighbouring nodes
+  vec4 u;        // unit vector of the first lattice axis; w: half extent of the lattice along it
+  vec4 v;        // the same for the second lattice axis
   vec4 surface;  // friction, restitution, depth below the plane up to which spheres are pushed back
 };
 
 struct ThesisBody {
-  vec4 inverse_inertia;  // principal moments (1/(kg m2)); w: inverse mass, 0 = fixed
-  vec4 surface;          // friction, restitution
-  uvec4 range;           // first sphere, spheres, world
+  vec4 inverse_inertia;  // 1 / principal moments of inertia (1/(kg m2)); w: inverse mass (1/kg), 0 if the body is fixed
+  vec4 surface;          // coefficients of friction and restitution
+  uvec4 range;           // index of the first sphere of the body, number of its spheres, index of its world
 };
 
 struct ThesisState {
-  vec4 position;     // centre of mass
-  vec4 orientation;  // xyzw, principal axes -> world
-  vec4 velocity;     // m/s
-  vec4 spin;         // rad/s
+  vec4 position;     // position of the centre of mass
+  vec4 orientation;  // quaternion x, y, z, w from principal axes to world axes
+  vec4 velocity;     // velocity of the centre of mass (m/s)
+  vec4 spin;         // angular velocity (rad/s)
 };
 
-struct ThesisInertia {  // inverse inertia tensor in world axes
-  vec4 diagonal;        // xx yy zz
-  vec4 mixed;           // xy xz yz
+struct ThesisInertia {  // inverse inertia tensor of a body in world axes (1/(kg m2))
+  vec4 diagonal;        // elements xx, yy, zz
+  vec4 mixed;           // elements xy, xz, yz
 };
 
-struct ThesisShape {  // one sphere of a part's collision shape
-  vec4 center;        // principal axes, from the centre of mass; w: radius
-  vec4 normal;        // true surface's, principal axes; w: 1 on a face, 0 on edges and corners
+struct ThesisShape {  // one sphere of the collision shape of a part
+  vec4 center;        // centre relative to the centre of mass, in principal axes; w: radius
+  vec4 normal;        // unit normal of the true surface there, in principal axes; w: 1 on a face, 0 at edges, corners
 };
 
 struct ThesisSphere {
-  uint body, shape;
+  uint body, shape;   // index of the body that it belongs to, and index of its ThesisShape
 };
 
-struct ThesisSorted {
-  vec4 center;   // w: radius
-  uvec4 owner;   // sphere, body
+struct ThesisSorted {  // a sphere, in the order of the cells of the grid
+  vec4 center;   // centre in world axes; w: radius
+  uvec4 owner;   // x: index of the sphere, y: index of its body
 };
 
 struct ThesisRange {  // the contacts of a sphere
-  uint first, count;
+  uint first, count;  // index of the first contact, number of contacts
 };
 
 struct ThesisContact {
-  vec4 normal;   // unit, from the other towards this sphere; w: depth
-  vec4 arm;      // contact point from this body's centre of mass; w: friction of the pair
+  vec4 normal;   // unit normal from the other sphere towards this one; w: depth of the overlap
+  vec4 arm;      // vector from the centre of mass of this body to the contact point; w: friction of the pair
   uvec4 other;   // x: the other sphere or node; y: key of its body or sheet; z: number of contacts of the two bodies
-  vec4 impulse;  // kg m/s on this body, of this iteration
-  vec4 total;    // of all iterations; w: speed of separation to reach (m/s)
+  vec4 impulse;  // impulse on this body in this iteration (N s)
+  vec4 total;    // sum of the impulses of all iterations of the step (N s); w: speed of separation to reach (m/s)
 };
 
-struct ThesisPush {  // sum over a sphere's contacts
-  vec4 linear;
-  vec4 angular;      // about the body's centre of mass
+struct ThesisPush {  // sum of the impulses at all contacts of a sphere
+  vec4 linear;       // N s
+  vec4 angular;      // angular impulse about the centre of mass of the body (N m s)
 };
 
-struct ThesisNeighbour {
-  uint key;    // body, or THESIS_NODE | sheet
-  uint count;  // number of contacts minus one, so that filling the table with ones empties it
+struct ThesisNeighbour {  // one slot of the table of a body (shaders/thesis/neighbours.h)
+  uint key;    // index of the neighbour, or THESIS_NODE | index of the sheet
+  uint count;  // number of contacts with it, minus one, so that a table of words 0xffffffff is empty
 };
 
 struct ThesisStatus {
-  uint touching_spheres, touching_bodies, slots;  // of this step
-  uint overflow;         // bits, kept until the host has seen them
-  uint contacts;         // summed over steps
-  uint most_slots;       // most slots that a step needed, counted up to the first step that had too few
+  uint touching_spheres, touching_bodies, slots;  // numbers of spheres and bodies with contacts, and of contacts
+  uint overflow;         // THESIS_..._OVERFLOW bits of all steps since the host has reset them
+  uint contacts;         // number of contacts, summed over steps
+  uint most_slots;       // largest number of contacts that a step needed, up to the first step that had too little room
   uint unused_a, unused_b;
-  uvec4 sphere_groups;   // arguments of the dispatches over touching spheres ...
-  uvec4 body_groups;     // ... and touching bodies
+  uvec4 sphere_groups;   // arguments of indirect dispatches over the spheres with contacts
+  uvec4 body_groups;     // arguments of indirect dispatches over the bodies with contacts
 };
 
-// Per world, so that what is reported of a world does not depend on the others of its batch.
+// Room that one world needs. It is counted per world, so that it does not depend on the other worlds of the batch.
 struct ThesisNeed {
-  uint contacts;    // most contacts any sphere had
-  uint neighbours;  // most neighbours any body had; more than the table has slots means at least
+  uint contacts;    // largest number of contacts of a sphere
+  uint neighbours;  // largest number of neighbours of a body; above neighbour_slots, it is a lower bound
 };
 
 GPU_STRUCTS_END

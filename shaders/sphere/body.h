@@ -12,7 +12,7 @@ bool sleeps(uint body) {
   return (states[body].flags.x & (SPHERE_PRESENT | SPHERE_ASLEEP)) == (SPHERE_PRESENT | SPHERE_ASLEEP);
 }
 
-// Present, but nothing that this step moves.
+// Returns whether a body is present but is not moved in this step, because it is fixed or asleep.
 bool waits(uint body) { return present(body) && !moves(body); }
 
 mat3 rotation_of(vec4 q) {

@@ -1,6 +1,6 @@
-// Upright boxes: the boxes of bodies along the axes of the world, enlarged by the distance that the surface may move in
-// a step (reach(), sphere/pair.h). Needs the bindings Settings, Bodies, States, Shapes, Planes, sphere/body.h,
-// sphere/pair.h and sphere/oriented_box.h.
+// Computes the upright (axis-aligned) box of a body, enlarged by the distance that the surface may move in a step
+// (reach(), sphere/pair.h), and its inverse inertia. Needs the bindings Settings, Bodies, States, Shapes, Planes,
+// sphere/body.h, sphere/pair.h and sphere/oriented_box.h.
 
 SphereTensor tensor_of(uint body) {
   mat3 r = rotation_of(states[body].orientation);

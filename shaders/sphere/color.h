@@ -1,17 +1,17 @@
 // Assigns colors to manifolds: the work of one invocation on one manifold. The includer defines lowest_of(i),
 // used_low_of(i) and used_high_of(i) for body i of the world: the lowest key among the uncolored manifolds of the body,
-// and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, Manifolds, and sphere/body.h.
+// and bits of the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, Manifolds, sphere/body.h.
 const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = SPHERE_NO_COLOR;
-const uint LAST_COLOR = SPHERE_COLORS - 1u;  // any number of manifolds, solved one by one
+const uint LAST_COLOR = SPHERE_COLORS - 1u;  // color whose manifolds may share bodies and are solved one by one
 
-// Visits of contacts that a sweep is expected to need: a normal and a friction a contact.
+// Largest number of visits that a manifold needs in a sweep: one for the normal and one for the friction of a contact.
 const uint MOST_VISITS = 2u * SPHERE_MAX_CONTACTS;
 
 uint visits_of(SphereWorld world, SpherePair pair) { return manifolds[world.pairs.x + pair.slot].state.w; }
 
-// Different for all pairs of a world of up to 16,384 bodies: manifolds that need many visits come first, so that those of a
-// color need about as many, and then the order of a hash. Each step of the hash is one to one on 28 bits (the finaliser
-// of MurmurHash3, cut).
+// Returns the key by which manifolds get their colors. It is unique for up to 16,384 bodies. Manifolds that need many
+// visits are first, so that those of a color need similar numbers; then a hash decides. Each step of the hash is a
+// one-to-one map of 28 bits (shortened finaliser of MurmurHash3).
 uint key_of(SphereWorld world, SpherePair pair) {
   uint a = pair.a - world.bodies.x, b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;
   uint key = a << 14 | b;
@@ -27,7 +27,7 @@ uint lowest_free(uvec2 used) {
 
 uvec2 color_bit(uint color) { return color < 32u ? uvec2(1u << color, 0u) : uvec2(0u, 1u << (color - 32u)); }
 
-// Makes a manifold's key known to its bodies; false if it has its color.
+// Lowers the lowest key of both bodies to the key of a manifold. Returns false if the manifold has a color already.
 bool bid(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
   if (pair.color != UNCOLORED) return false;
@@ -37,11 +37,11 @@ bool bid(SphereWorld world, uint p) {
   return true;
 }
 
-// Takes a color if no other uncolored manifold of both bodies has a lower key; returns it, else UNCOLORED.
+// Gives a manifold its color if it has the lowest key of both bodies. Returns the color, or UNCOLORED.
 uint take_color(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
   uint key = key_of(world, pair), a = pair.a - world.bodies.x;
-  uint b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;  // in range: compilers read ahead of conditions
+  uint b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;  // a valid index: compilers may read it anyway
   bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
   if (a_moves && lowest_of(a) != key || b_moves && lowest_of(b) != key) return UNCOLORED;
   uvec2 used = uvec2(0u);

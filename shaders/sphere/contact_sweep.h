@@ -8,16 +8,16 @@ void apply(Row row, vec3 impulse, inout Sides s) {
   s.b.w += tensor_times(s.b, cross(row.rb, impulse));
 }
 
-// A contact that is fast enough to bounce.
+// Returns whether a contact is fast enough to bounce. approach: m/s, negative if the bodies approach each other.
 bool strikes(float approach) { return approach <= -settings.restitution_speed; }
 
-// Share of a contact's impulse that lasts when what was an impact is removed.
+// Returns the share of a contact's impulse with which the next sub-step starts, without the part due to an impact.
 float lasting_share_at(uint at, uint stride, float normal_mass) {
   float speed = impact_speed(plan.sub_step, length(world.gravity.xyz), settings.restitution_speed);
   return lasting_share(impulses[at].x, lasting_at(at, stride), normal_mass, speed);
 }
 
-// bounces: it keeps the impulse of its impact, which the bounce may have to take back, until it has bounced.
+// Applies the impulses of the last sub-step. bounces: the contact keeps all of the impulse until it has bounced.
 void warm_start(uint at, uint stride, bool bounces, inout Sides s) {
   Row row = row_at(at, stride);
   float share = bounces ? 1.0 : lasting_share_at(at, stride, row.normal_mass), along = share * impulses[at].x;
@@ -28,7 +28,7 @@ void warm_start(uint at, uint stride, bool bounces, inout Sides s) {
   apply(row, along * row.normal + friction, s);
 }
 
-// Takes a turn of one body against the other about an axis, by a moment of at most `most`.
+// Reduces the rotation of a relative to b about an axis, whose rate is `speed` (rad/s), by at most `most` (N m s).
 void resist(vec3 axis, float speed, float most, inout Sides s) {
   vec3 turn_a = tensor_times(s.a, axis), turn_b = tensor_times(s.b, axis);
   float moment = moment_against(speed, most, axis, turn_a, turn_b);
@@ -36,7 +36,7 @@ void resist(vec3 axis, float speed, float most, inout Sides s) {
   s.b.w += moment * turn_b;
 }
 
-// An impulse along the normal meets the speed there and the spins that it gives by the same moments.
+// Lever arm x normal (m), for both bodies. They give the speed along the normal, and the effect of a normal impulse.
 struct Moments {
   vec3 a, b;
 };
@@ -53,10 +53,10 @@ void apply_along(float impulse, vec3 normal, Moments m, inout Sides s) {
   s.b.w += impulse * tensor_times(s.b, m.b);
 }
 
-// hit: something of its manifold is, which alone needs to know whether a contact has pressed. Returns whether there may be
-// friction: where the contact has not pressed before either, it is 0.
+// Solves the normal impulse of a contact; change: its change (N s); hit: a contact of the manifold closes fast, so that
+// it is recorded that this one has pressed. Returns whether there may be friction, which is 0 without normal impulse.
 bool solve_normal(uint at, uint stride, Row row, Give give, bool hit, out float change, inout Sides s) {
-  vec2 before = impulses[at];  // gap behind it
+  vec2 before = impulses[at];  // x: normal impulse, y: gap
   Moments moments = moments_of(row);
   float total = normal_impulse(before.x, speed_along(row.normal, moments, s), before.y, row.normal_mass, give);
   change = total - before.x;

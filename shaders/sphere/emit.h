@@ -1,6 +1,6 @@
-// Adds a candidate for a contact to the list of all, and to a chain of its job. Needs the bindings Settings, Progress,
-// Jobs, Candidates, and world_index.
-uint job;  // of what this invocation emits
+// Adds a candidate for a contact to the list of all candidates, and to a chain of its job. Needs the bindings Settings,
+// Progress, Jobs, Candidates, and world_index.
+uint job;  // job to which the candidates of this invocation belong
 
 void emit(vec3 on_a, vec3 normal, float separation, uint feature) {
   uint at = 1u + atomicAdd(status.candidates, 1u);

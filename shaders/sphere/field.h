@@ -3,7 +3,7 @@
 
 struct Field {
   vec3 origin;
-  vec3 most;   // largest grid coordinate looked up
+  vec3 most;   // largest grid coordinates that are read, in cells
   float cell, inverse_cell, padding, ball;
   uint row, slice, first;
 };
@@ -14,14 +14,14 @@ Field field_of(uint shape) {
                s.grid.x * s.grid.y, s.grid.w);
 }
 
-// m: no path within the part is longer.
+// Returns an upper bound (m) of the length of a straight line within the part.
 float span_of(Field f) { return f.ball > 0.0 ? 2.0 * f.ball : f.cell * length(f.most + 1.001); }
 
 #include "shared/sphere/field.h"
 
 Cell cell_at(Field f, vec3 point) {
   vec3 g = (point - f.origin) * f.inverse_cell;
-  vec3 x = clamp(g, vec3(0.0), f.most);  // also of NaN: reads stay inside
+  vec3 x = clamp(g, vec3(0.0), f.most);  // limits NaN as well, so that no read is outside the grid
   uvec3 i = min(uvec3(x), uvec3(f.most));
   vec3 t = x - vec3(i), beyond = g - x;
   uint at = f.first + i.x + i.y * f.row + i.z * f.slice;

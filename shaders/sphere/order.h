@@ -1,8 +1,8 @@
-// The order in which manifolds are solved: by color, of a color those that need most visits of contacts first, so that
-// neighbours, which wait for one another, need about as many. The includer defines members_of(k), the
-// number of manifolds of a color and a number of visits (k = kind_of()) and later where the next of them goes;
-// members_in(c), that of a color; start_of(c), where it begins; row_top, the vec4 of rows given out so far; longest_visits, the
-// sum over blocks of their longest. Needs the
+// Puts manifolds in the order in which they are solved: by color and, within a color, by decreasing number of visits of
+// contacts, so that neighbouring invocations have equal work. The includer defines members_of(k), the number of
+// manifolds of a color with a number of visits (k = kind_of()), and later the position of the next of them;
+// members_in(c), the number of manifolds of a color; start_of(c), the position of its first one; row_top, the number of
+// vec4 in the rows assigned so far; longest_visits, the sum over blocks of their largest number of visits. Needs the
 // bindings Bodies, States, Pairs, Manifolds, Order, and sphere/color.h.
 #include "sphere/ordered.h"
 
@@ -12,23 +12,23 @@ uint kind_of(uint color, uint visits) { return color * VISIT_KINDS + MOST_VISITS
 
 uint contacts_of(SphereWorld world, uint p) { return manifolds[world.pairs.x + pairs[p].slot].state.x; }
 
-// Those that this step solves: none where nothing moves.
+// Returns the number of contacts of pair p that this step solves; 0 if neither body moves.
 uint contacts_to_solve(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
   bool waits = !moves(pair.a) && (pair.b == SPHERE_GROUND || !moves(pair.b));
   return waits ? 0u : contacts_of(world, p);
 }
 
-// A manifold has its color.
+// Counts a manifold that has got its color.
 void count_member(SphereWorld world, uint p, uint color) { 
-  SpherePair pair = pairs[p];  // a copy: what is coherent cannot be an argument
+  SpherePair pair = pairs[p];  // copied, because an element of a coherent buffer cannot be an argument
   atomicAdd(members_of(kind_of(color, visits_of(world, pair))), 1u);
 }
 
-// Manifolds without a color of their own are solved one by one, in the order of their pairs.
+// Returns the number of manifolds in a block of rows; those of the last color are solved one by one, in order of pairs.
 uint block_of(uint color) { return color == LAST_COLOR ? 1u : SPHERE_ROW_BLOCK; }
 
-// One group: how many manifolds each color has, and where in it those of each number of visits begin.
+// Called by all invocations. Counts the manifolds of each color; members_of() becomes the first position per visits.
 void count_colors() {
   for (uint c = gl_LocalInvocationIndex; c < SPHERE_COLORS; c += gl_WorkGroupSize.x) {
     uint sum = 0u;
@@ -41,7 +41,7 @@ void count_colors() {
   }
 }
 
-// Manifold `index` of its color; its rows are given out later (note_length, take_rows, join_block).
+// Stores a manifold at position `index` of its color. Its rows are assigned later (note_length, take_rows, join_block).
 void put_in_order(SphereWorld world, SpherePair pair, uint count, uint index) {
   uint block = block_of(pair.color), lane = index % block, stride = min(block, members_in(pair.color) - (index - lane));
   uint b = pair.b == SPHERE_GROUND ? SPHERE_GROUND_BODY : pair.b - world.bodies.x;
@@ -57,28 +57,28 @@ void put_in_order(SphereWorld world, uint p) {
   put_in_order(world, pair, contacts_of(world, p), atomicAdd(members_of(kind_of(pair.color, visits)), 1u));
 }
 
-// One invocation: those of the last color are solved one by one, so their order counts.
+// Called by one invocation. Manifolds of the last color are solved one by one, so that their order must be fixed.
 void put_last_in_order(SphereWorld world, uint list, uint count) {
   uint index = 0u;
   for (uint p = list; index < members_in(LAST_COLOR) && p < list + count; ++p) {
-    SpherePair pair = pairs[p];  // a copy: what is coherent cannot be an argument
+    SpherePair pair = pairs[p];  // copied, because an element of a coherent buffer cannot be an argument
     if (pair.color == LAST_COLOR) put_in_order(world, pair, contacts_of(world, p), index++);
   }
 }
 
-// When all are in order: the first manifold of a block learns how many contacts that with most has.
+// Called when all manifolds are in order. Stores the largest number of contacts of a block with its first manifold.
 void note_length(SphereWorld world, uint o) {
   uint at = world.pairs.x + o, kind = order[at].kind;
   atomicMax(order[at - lane_of(kind)].row, count_of(kind));
 }
 
-// Then it takes as many rows for each of the block.
+// Called after note_length(). The first manifold of a block reserves this number of rows for each manifold in it.
 void take_rows(SphereWorld world, uint o) {
   uint at = world.pairs.x + o, kind = order[at].kind;
   if (lane_of(kind) == 0u) order[at].row = atomicAdd(row_top, SPHERE_ROW_PARTS * stride_of(kind) * order[at].row);
 }
 
-// When all blocks have rows.
+// Called after take_rows(). Stores the position of a manifold's rows, from that of the first manifold of its block.
 void join_block(SphereWorld world, uint o) {
   uint at = world.pairs.x + o, lane = lane_of(order[at].kind);
   if (lane == 0u) return;

@@ -4,7 +4,7 @@ uint pack_bodies(uint a, uint b) { return a | b << 16; }
 uint first_of_bodies(uint bodies) { return bodies & 0xffffu; }
 uint second_of_bodies(uint bodies) { return bodies >> 16; }
 
-// Before rows are assigned, the bits of the flags hold the position of a manifold in its block.
+// Before rows are assigned, the bits of the flags contain the position of a manifold in its block.
 uint lane_of(uint kind) { return kind & 0xffu; }
 uint without_lane(uint kind) { return kind & ~0xffu; }
 uint pack_kind(uint flags, uint count, uint stride, uint near) { return flags | count << 8 | stride << 12 | near << 24; }
@@ -14,7 +14,7 @@ uint near_of(uint kind) { return kind >> 24; }
 uint with_near(uint kind, uint near) { return kind & 0xffffffu | near << 24; }
 uint all_of(uint count) { return (1u << count) - 1u; }
 
-// Bodies of a manifold, counted in all worlds.
+// Indices of the bodies of a manifold among the bodies of all worlds.
 struct Members {
   uint a, b;  // b may be SPHERE_GROUND
 };

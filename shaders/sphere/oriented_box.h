@@ -1,12 +1,12 @@
 // Determines whether the oriented bounding boxes of two bodies intersect, by the separating-axis test. Needs the
 // bindings Bodies, States, Shapes, and sphere/body.h.
 
-struct Box {
-  vec4 center;     // w: margin
-  vec4 half_size;  // margin included, negative: absent; w: 0 = nothing moves it, 1 = moves, 2 = moves near the ground
+struct Box {         // an upright (axis-aligned) box
+  vec4 center;     // m; w: margin (m)
+  vec4 half_size;  // half extents with margin (m), negative if absent; w: 0 = not moved, 1 = moves, 2 = near ground
 };
 
-// Separating axis test on the six face normals.
+// Returns whether the oriented boxes are farther apart than `margin` (m) along one of their six face normals.
 bool oriented_boxes_apart(uint a, uint b, float margin) {
   mat3 ra = rotation_of(states[a].orientation), rb = rotation_of(states[b].orientation);
   vec3 ca = shapes[bodies[a].ids.x].box_center.xyz, ha = shapes[bodies[a].ids.x].box_half.xyz;
@@ -17,7 +17,7 @@ bool oriented_boxes_apart(uint a, uint b, float margin) {
   return any(greaterThan(max(gap_a, gap_b), vec3(margin)));
 }
 
-// Of two bodies that nothing moves: not.
+// Returns whether two upright boxes intersect; false if neither body moves.
 bool upright_boxes_meet(Box a, Box b) {
   if (any(greaterThan(abs(a.center.xyz - b.center.xyz), a.half_size.xyz + b.half_size.xyz))) return false;
   return a.half_size.w + b.half_size.w > 0.0;

@@ -2,9 +2,9 @@
 // ahead; the relative pose of two bodies; and the size of the smaller one. Needs the bindings Settings, Bodies, States,
 // Shapes.
 
-float time_step;  // s, of this step
+float time_step;  // length of this step (s)
 
-// How far the surface of a body may move in one step, and the distance at which contacts are kept.
+// Returns the margin (m) of a body's box: half of the contact margin + the movement of its surface in a step.
 float reach(SphereWorld world, uint body, float radius, float diagonal) {
   float base = 0.5 * settings.margin * diagonal;
   if (!moves(body)) return base;
@@ -12,7 +12,7 @@ float reach(SphereWorld world, uint body, float radius, float diagonal) {
                  length(world.gravity.xyz) * time_step) * time_step;
 }
 
-// Distance by which the bodies of a pair may approach each other in one step (m).
+// Returns the distance (m) by which the bodies of a pair may approach each other in one step.
 float travel_of(SphereWorld world, SpherePair pair) {
   bool ground = pair.b == SPHERE_GROUND;
   SphereState a = states[pair.a];
@@ -22,7 +22,7 @@ float travel_of(SphereWorld world, SpherePair pair) {
   return (length(v) + spin + length(world.gravity.xyz) * time_step) * time_step;
 }
 
-// Pose of b in the frame of a; on the ground: of a in the bin's.
+// Computes the pose of b in the frame of a; if b is the ground, the pose of a in the frame of the bin.
 void relative_pose(SpherePair pair, out vec3 position, out vec4 orientation) {
   position = states[pair.a].position.xyz;
   orientation = states[pair.a].orientation;

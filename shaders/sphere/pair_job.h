@@ -4,15 +4,15 @@
 #include "shared/sphere/choice.h"
 #include "sphere/contact_gap.h"
 
-// Fates of the contacts of a pair.
+// The decisions about the contacts of a pair.
 const uint FIND_ANEW = 0u, RECYCLE = 1u, RECYCLE_UNLESS_IT_STRIKES = 2u;
 
 float recycle_limit(SpherePair pair, bool fine) {
   return (fine ? settings.recycle : settings.coarse_recycle) * size_of(pair);
 }
 
-// A pair that has hardly moved since its contacts were found, on fine samples or on coarse ones, keeps them. What strikes
-// is found anew. The point where a ball touches stays below it, while one that is kept turns with it and drives it on.
+// Decides whether a pair keeps its contacts, which it does if it has hardly moved since they were found. Contacts of a
+// ball are always found anew: kept ones would rotate with the ball and accelerate it. `fine`: fine samples are in use.
 uint fate_of_contacts(SphereWorld world, SpherePair pair, bool fine) {
   SphereManifold manifold = manifolds[world.pairs.x + pair.slot];
   if (manifold.state.z == 0u || is_ball(pair.a) || is_ball(pair.b)) return FIND_ANEW;
@@ -26,12 +26,12 @@ uint fate_of_contacts(SphereWorld world, SpherePair pair, bool fine) {
   return moved <= STRIKE * limit ? RECYCLE : RECYCLE_UNLESS_IT_STRIKES;
 }
 
-// Puts the pair at `place` of the list on the list of jobs.
+// Adds a pair to the list of jobs. place: index in the list of pairs.
 void enlist(uint place) {
   uint job = atomicAdd(status.jobs, 1u);
   jobs[job].pair = place;
   uint groups = job < settings.contact_groups ? job + 1u : job / SPHERE_GROUP_JOBS + 1u;
-  // A dispatch takes 65,535 groups an axis; groups that find no job end at once.
+  // A dispatch has at most 65,535 groups along an axis; groups that find no job end immediately.
   atomicMax(status.groups.x, min(groups, 65535u));
   atomicMax(status.groups.y, (groups + 65534u) / 65535u);
 }

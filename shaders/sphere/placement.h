@@ -1,9 +1,9 @@
-// The pose of a body at the time within the step at which its contacts are found (StepPlan::contact_time). Lever arms and
-// normals of contacts belong to that time as well. Twin: Placement. Needs the bindings Settings, States and
+// The pose of a body at the time within the step for which its contacts are found (StepPlan::contact_time). Lever arms
+// and normals of contacts belong to that time as well. Twin: Placement. Needs the bindings Settings, States and
 // sphere/body.h.
 struct Placement {
-  vec3 position;
-  mat3 rotation;
+  vec3 position;  // centre of mass (m)
+  mat3 rotation;  // from body to world axes
 };
 
 Placement placement_of(uint body, float contact_time) {

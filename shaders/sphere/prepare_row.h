@@ -8,10 +8,10 @@
 #include "sphere/pair_material.h"
 #include "sphere/ball.h"
 
-// Where a body is when contacts were found, and halfway through the step from there.
+// The pose of a body at the start of the step, and its motion from there to the contact time (StepPlan::contact_time).
 struct Start {
-  vec3 position;
-  vec4 orientation;
+  vec3 position;     // centre of mass (m)
+  vec4 orientation;  // x, y, z, w; from body to world axes
   Ahead ahead;
 };
 
@@ -36,18 +36,18 @@ Sides starting_sides(Members of) {
   return s;
 }
 
-// Of a contact, when the step begins.
+// Returns the speed (m/s, negative) at which a contact closes its gap (m), at the velocities of the start of the step.
 float approach_of(Row row, float gap, Sides s) {
   float falls = float(s.b.inverse_mass > 0.0) - float(s.a.inverse_mass > 0.0);
   return speed_at_impact(dot(relative_velocity(row, s), row.normal), gap, falls * dot(row.normal, world.gravity.xyz));
 }
 
-// Of what cannot move: 0.
+// Returns the squared length of a lever arm (m2), or 0 if the body cannot move.
 float length_squared(Side side, vec3 lever) { return side.inverse_mass > 0.0 ? dot(lever, lever) : 0.0; }
 
-// With the force of the last step as impulse of a sub-step. Returns the contact's approach.
+// Stores the row of a contact, and its force of the last step as impulse of a sub-step. Returns its approach (m/s).
 float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Sides s) {
-  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the field is a's
+  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the normal belongs to a
   Row row;
   row.ra = rotate(start_a.orientation, c.anchor_a);
   row.rb = rotate(start_b.orientation, c.anchor_b);
@@ -63,13 +63,13 @@ float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start st
   return approach_of(row, gap, s);
 }
 
-// Which contacts may press in the first sub-step. What is hit keeps all, and gets levers of where its bodies are now by
-// the first sweep.
+// Determines which contacts of a manifold may press in the first sub-step. If one of them strikes, all may. reach: m,
+// largest displacement along a normal in a sub-step.
 void find_first_near(uint first_row, uint stride, float reach, bool strikes, inout SphereOrdered m) {
   uint near = 0u, count = count_of(m.kind);
   m.slack = NO_LIMIT;
   for (uint k = 0u; k < count; ++k) {
-    vec2 impulse = impulses[first_row + SPHERE_ROW_PARTS * k * stride];  // gap behind it
+    vec2 impulse = impulses[first_row + SPHERE_ROW_PARTS * k * stride];  // y: gap
     if (strikes || impulse.x > 0.0 || !(impulse.y > NEAR_REACH * reach))
       near |= 1u << k;
     else
@@ -78,7 +78,7 @@ void find_first_near(uint first_row, uint stride, float reach, bool strikes, ino
   m.kind = with_near(m.kind, near);
 }
 
-// Rows of manifold o, and what its sweeps need.
+// Prepares the rows of manifold o, and its members of SphereOrdered that sweeps read.
 void prepare_manifold(uint o) {
   SphereOrdered m = order[world.pairs.x + o];
   Members of = bodies_of(world, m.bodies);
@@ -96,7 +96,7 @@ void prepare_manifold(uint o) {
     least_mass = min(least_mass, row.normal_mass);
     strikes = strikes || approach <= -settings.restitution_speed;
   }
-  bool rolls = is_ball(of.a) || is_ball(of.b);  // the point where a ball touches does not turn with it
+  bool rolls = is_ball(of.a) || is_ball(of.b);  // the contact point of a ball does not rotate with the ball
   if (restitution_of(of) > 0.0) m.kind |= SPHERE_RESTITUTES;
   if (strikes) m.kind |= SPHERE_STRIKES | (rolls ? 0u : SPHERE_REFRESHED);
   m.friction = friction_between(of);

@@ -1,5 +1,5 @@
-// Selects the candidates of a pair that become contacts, at most eight, by the rule of shared/sphere/choice.h. A team of
-// TEAM invocations takes a pair, and all teams of the group go through the rounds together. Twin: reduce.hpp. Needs the
+// Selects the candidates of a pair that become contacts, at most eight, by the rule of shared/sphere/choice.h. A team
+// of TEAM invocations processes a pair, and all teams of the group run each round together. Twin: reduce.hpp. Needs the
 // bindings Settings, Progress, States, Manifolds, Contacts, Jobs, Candidates, world_index, samples_of() and
 // placement_of().
 
@@ -10,21 +10,21 @@ const uint TEAM = SPHERE_CHAINS, TEAMS = SPHERE_PAIR_GROUP / TEAM;
 const uint TEAM_CONTACTS = TEAMS * SPHERE_MAX_CONTACTS;
 const uint NO_SOURCE = 0xffffffffu;
 
-shared SphereContact old[TEAM_CONTACTS];
-shared vec4 chosen_on_a[TEAM_CONTACTS];  // w: separation
-shared vec3 chosen_normal[TEAM_CONTACTS];
+shared SphereContact old[TEAM_CONTACTS];   // contacts of the last step
+shared vec4 chosen_on_a[TEAM_CONTACTS];  // of the chosen candidates: SphereCandidate.on_a (m); w: separation (m)
+shared vec3 chosen_normal[TEAM_CONTACTS];  // unit normals in the frame of a
 shared uint chosen_feature[TEAM_CONTACTS];
-shared uint chosen_source[TEAM_CONTACTS];  // contact of the last step whose forces it takes
-shared uint source_taken[TEAM_CONTACTS];
-shared uint highest[2u * TEAMS], highest_feature[2u * TEAMS];  // take turns
-shared uint found_count[TEAMS];
-shared uint goes_on[2];  // take turns; 1: a team has chosen one
+shared uint chosen_source[TEAM_CONTACTS];  // number of the contact of the last step whose forces a chosen one inherits
+shared uint source_taken[TEAM_CONTACTS];   // 1: the forces of this contact of the last step are inherited
+shared uint highest[2u * TEAMS], highest_feature[2u * TEAMS];  // best key of a round; even and odd rounds alternate
+shared uint found_count[TEAMS];            // number of candidates of the pair
+shared uint goes_on[2];  // 1: a team has chosen a candidate; even and odd rounds alternate
 
-uint team, member;  // of this invocation: number of the team, and number in it
-uint team_old;      // where those of its pair's last contacts begin, and of the chosen ones
-uint old_count;     // of those
-bool old_known;     // whether they have features of the present samples
-uint chain;         // the first candidate that is this invocation's
+uint team, member;  // number of this invocation's team, and of the invocation in the team
+uint team_old;      // index of the team's first element in the arrays of TEAM_CONTACTS elements
+uint old_count;     // number of contacts of the pair in the last step
+bool old_known;     // whether the features of these contacts denote samples of the set that is in use
+uint chain;         // index of the first candidate in the chain of this invocation; 0: none
 #define FOR_OWN_CANDIDATES(at) for (uint at = chain; at != 0u; at = candidates[at].next)
 
 void join_team() {
@@ -33,13 +33,13 @@ void join_team() {
   team_old = team * SPHERE_MAX_CONTACTS;
 }
 
-// A job leaves its chains empty.
+// Gets the chain of this invocation from a job, and leaves it empty for the next step.
 void take_chain(uint job) {
   chain = jobs[job].chains[member];
   jobs[job].chains[member] = 0u;
 }
 
-// Known to all behind the next barrier. slot: of the manifold, in all worlds.
+// Reads the contacts of the last step into shared memory; valid after the next barrier. slot: index of the manifold.
 void begin_choice(bool has_pair, uint slot) {
   old_count = 0u;
   if (has_pair) old_count = manifolds[slot].state.x;
@@ -55,7 +55,7 @@ void begin_choice(bool has_pair, uint slot) {
   }
 }
 
-// Whether each was a contact in the last step; none is chosen.
+// Determines for each candidate whether it was a contact in the last step, and marks it as not chosen.
 void begin_candidates() {
   uint count = 0u;
   FOR_OWN_CANDIDATES(at) {
@@ -68,8 +68,8 @@ void begin_candidates() {
   if (count > 0u) atomicAdd(found_count[team], count);
 }
 
-// The candidate with the largest key of a team, ties by feature, becomes number n of its chosen ones; false if every
-// key is 0. All invocations: goes_on[n & 1] tells whether a team has chosen one.
+// Stores the candidate with the largest key of the team (of equal keys, the lowest feature) as chosen candidate n.
+// Returns false if all keys are 0. Called by all invocations; then goes_on[n & 1] states whether a team has chosen one.
 bool choose(uint n, uint key, uint at) {
   uint turn = 2u * team + (n & 1u), feature = NO_SOURCE;
   if (key > 0u) {
@@ -96,18 +96,18 @@ bool choose(uint n, uint key, uint at) {
   return chooses;
 }
 
-// Floats as keys: larger keys for smaller separations.
+// Converts a separation to an integer key, which is larger for a smaller separation.
 uint depth_key(float separation) {
   uint bits = floatBitsToUint(separation);
   return (bits & 0x80000000u) != 0u ? bits : ~(bits | 0x80000000u);
 }
 
-// Whether a candidate with this key comes before the best so far.
+// Returns whether a candidate with this key and feature is chosen before the best one so far.
 bool is_better(uint key, uint feature, uint best_key, uint best) {
   return key > best_key || key == best_key && key > 0u && feature < candidates[best].feature;
 }
 
-// The candidate of this invocation with the best score beside those chosen so far, and its score as a key.
+// Finds the candidate of this invocation with the best score, given those chosen so far. Returns its score as a key.
 uint best_beside(uint chosen, float size, float soon, out uint best) {
   uint key = best = 0u;
   vec3 on_a = chosen_on_a[team_old + chosen - 1u].xyz, normal = chosen_normal[team_old + chosen - 1u];
@@ -128,7 +128,7 @@ uint best_beside(uint chosen, float size, float soon, out uint best) {
   return key;
 }
 
-// The few candidates that represent all (shared/sphere/choice.h).
+// Chooses the candidates that become contacts (shared/sphere/choice.h). Returns their number. size, soon: m.
 uint reduce(float size, float soon) {
   uint key = 0u, best = 0u, count = 0u;
   FOR_OWN_CANDIDATES(at) {
@@ -148,8 +148,8 @@ uint reduce(float size, float soon) {
   return count;
 }
 
-// Forces of the last step's contacts: by feature, else from the nearest with a like normal. Known to all behind the next
-// barrier.
+// Finds for each chosen candidate the contact of the last step whose forces it inherits: that with the same feature, or
+// the nearest one within `near` (m) with a similar normal. ra, rb: rotations from body axes to world axes.
 void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   if (member < count) {
     chosen_source[team_old + member] = NO_SOURCE;
@@ -181,7 +181,7 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   barrier();
 }
 
-// One invocation, when `count` contacts of `found` candidates are chosen.
+// Called by one invocation of a team when `count` contacts of `found` candidates are chosen. Stores the manifold.
 void end_choice(SphereWorld world, SpherePair pair, uint count, uint found) {
   vec3 position;
   vec4 orientation;
@@ -193,14 +193,14 @@ void end_choice(SphereWorld world, SpherePair pair, uint count, uint found) {
     atomicAdd(progress[world_index].dropped, found - count);
 }
 
-// Contact number `member` of the chosen ones.
+// Stores contact number `member` of the chosen ones.
 void write_contact(SphereWorld world, SpherePair pair, Placement a, Placement b) {
   bool ground = pair.b == SPHERE_GROUND;
   uint n = team_old + member, feature = chosen_feature[n];
   vec3 on_a = chosen_on_a[n].xyz, normal = chosen_normal[n];
   vec3 on_b = a.position + a.rotation * (on_a + chosen_on_a[n].w * normal);
   if (!ground) on_b = (on_b - b.position) * b.rotation;
-  // The normal turns with the body whose field it comes from.
+  // The normal is stored in the frame of the body whose field determined it, and rotates with this body.
   if ((feature & SPHERE_SIDE_B) == 0u) normal = ground ? a.rotation * normal : (a.rotation * normal) * b.rotation;
   uint at = SPHERE_MAX_CONTACTS * (world.pairs.x + pair.slot) + member, source = chosen_source[n];
   contacts[at].anchor_a = on_a;
@@ -210,14 +210,14 @@ void write_contact(SphereWorld world, SpherePair pair, Placement a, Placement b)
   contacts[at].force = source != NO_SOURCE ? old[team_old + source].force : vec4(0.0);
 }
 
-// All invocations. Where a team has no pair, the pair is any one, and it has no candidates.
+// Chooses and stores the contacts of a pair. Called by all invocations; a team without a pair gives any pair.
 void choose_contacts(SpherePair pair, bool has_pair) {
   SphereWorld world = worlds[world_index];
   bool ground = pair.b == SPHERE_GROUND;
   Placement a = placement_of(pair.a), b = Placement(vec3(0.0), mat3(1.0));
   if (!ground) b = placement_of(pair.b);
   float size = size_of(pair);
-  // What is fast may meet all that is within its travel.
+  // A fast pair may close any gap that is smaller than its travel.
   float soon = SOON * size + max(0.0, travel_of(world, pair) - settings.margin * size);
   uint count = reduce(size, soon);
   carry_forces(count, samples_of(pair.a).size.y, a.rotation, b.rotation, ground);

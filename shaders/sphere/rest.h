@@ -4,7 +4,7 @@
 
 bool moved_recently(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
 
-// Whether it moved on in this step: bodies that are woken by touch have not, unless they go.
+// Returns whether a body left its pose of rest in this step. Bodies that were only woken by touch have not.
 bool went_on(uint body) { return moves(body) && states[body].still_position.w == 0.0; }
 
 void note_motion(uint body, uint w) {
@@ -22,8 +22,8 @@ void note_motion(uint body, uint w) {
   }
 }
 
-// Puts a body to sleep or wakes it, with its island; woken by part it sleeps again if it stays, by touch after the rest
-// window.
+// Puts a body to sleep or wakes it (stays_awake), and stores the label of its island. In mode by_part, a woken body can
+// sleep again at once if it does not move; in mode by_touch, after the rest window.
 void settle(uint body, uint label, bool stays_awake, uint w) {
   uint flags = states[body].flags.x;
   states[body].flags.y = label;

@@ -5,7 +5,7 @@
 #include "sphere/samples.h"
 #include "sphere/emit.h"
 
-// The pose of one body's samples in the frame of the field, and of the results in the frame of a.
+// The input of shared/sphere/touch.h, which explains each member: the samples of one body and the field of the other.
 struct View {
   Samples samples, other;
   Field own, field;
@@ -17,13 +17,13 @@ struct View {
   vec3 ahead;
 };
 
-// How the points of a body go on over another one until the step ends, in the frame of that one.
+// Predicted motion of a body relative to another one until the step ends, in the frame of the other one (m, rad).
 struct Drift {
   vec3 drift, twist;
 };
 
 Drift drift_of(uint points, Placement at, uint over, Placement frame) {
-  float rest = time_step - plan.contact_time + plan.sub_step;  // the last sweeps look as far ahead as another one
+  float rest = time_step - plan.contact_time + plan.sub_step;  // the last sweeps look ahead by another sub-step
   vec3 v = vec3(0.0), w = vec3(0.0), frame_v = vec3(0.0), frame_w = vec3(0.0);
   vec3 fall = time_step * worlds[world_index].gravity.xyz;
   if (moves(points)) {
@@ -38,7 +38,7 @@ Drift drift_of(uint points, Placement at, uint over, Placement frame) {
                rest * ((w - frame_w) * frame.rotation));
 }
 
-// The samples of a, or of b, against the field of the other, where the bodies are halfway through the step.
+// Returns the samples of a (of_a) or b with the field of the other body, at the poses of the contact time. margin: m.
 View view_of(SpherePair pair, Placement a, Placement b, bool of_a, float margin) {
   Placement at = b, frame = a;
   mat3 b_to_a = transpose(a.rotation) * b.rotation, a_to_b = transpose(b_to_a);
@@ -70,7 +70,7 @@ Touch touch_of(View view, uint node) {
   return touch;
 }
 
-// Of a node (a = b), or of an edge's ends. In a loop: compilers put all that is called in place.
+// Computes the touches of a node (a = b) or of both ends of an edge; in a loop, because compilers inline each call.
 void touches_of(View view, uint a, uint b, out Touch p, out Touch q) {
   p = q = Touch(vec3(0.0), vec3(0.0), 0.0);
   for (uint end = 0u; end < (a == b ? 1u : 2u); ++end) {

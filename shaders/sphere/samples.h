@@ -11,7 +11,7 @@ float sag_of(Samples samples) { return samples.size.w; }
 vec3 node_at(Samples samples, uint i) { return nodes[samples.nodes.x + i].place; }
 uint first_crease(Samples samples) { return samples.clusters.z; }
 
-// A normal cone: place of its vectors, and how many bounds they are; 0 = all directions, SPHERE_AXIS = one axis.
+// A normal cone: index of its first vector in Nodes, and number of its bounds (0: all directions; SPHERE_AXIS: axis).
 struct Cone {
   uint at, bounds;
 };
@@ -24,10 +24,10 @@ vec3 axis_of(Cone cone) { return nodes[cone.at].place; }
 float spread_of(Cone cone) { return uintBitsToFloat(nodes[cone.at].cone); }
 
 struct Edge {
-  uint a, b;
+  uint a, b;   // numbers of its nodes
   Cone cone;
-  float size;  // m
-  uint sharp;
+  float size;  // length (m)
+  uint sharp;  // 1: two faces meet at the edge
 };
 
 Edge edge_at(Samples samples, uint e) {
@@ -45,10 +45,10 @@ struct Range {
 uint edge_word(uint first, uint i) { return edges[first + i / 4u][i & 3u]; }
 uint listed_edge(Samples samples, uint k) { return edge_word(samples.blocks.y, k); }
 
-// The list of the edges near a point.
+// Returns the range of the list of edges near a point (body axes, m); listed_edge() reads its elements.
 Range edges_near(Samples samples, Field field, vec3 point) {
   if (field.ball > 0.0) return Range(0u, 0u);
-  vec3 g = clamp((point - field.origin) * field.inverse_cell, vec3(0.0), field.most);  // also of NaN
+  vec3 g = clamp((point - field.origin) * field.inverse_cell, vec3(0.0), field.most);  // limits NaN as well
   uvec3 block = min(uvec3(g), uvec3(field.most)) / SPHERE_EDGE_BLOCK;
   uint at = block.x + block.y * samples.blocks.z + block.z * samples.blocks.w;
   return Range(edge_word(samples.blocks.x, at), edge_word(samples.blocks.x, at + 1u));
@@ -69,7 +69,7 @@ struct Solid {
   bool is_plane;
   Field field;
   Plane plane;
-  float top;  // m: where walls end
+  float top;  // height (m) at which the walls of the bin end
 };
 
 Solid solid_of(Field field) { return Solid(false, field, Plane(vec4(0.0), uvec4(0u)), 0.0); }

@@ -1,12 +1,12 @@
-// Bodies in the solve: the work of one invocation on one body. Velocities are stored as sphere/solve_manifold.h states.
+// The work of one invocation on one body in the solve. sphere/solve_manifold.h states how velocities are stored.
 // Needs the bindings Settings, Progress, Bodies, Shapes, States and sphere/body.h.
 #include "sphere/solve_step.h"
 
-// The gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the kinetic energy
-// and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2). Only the change is turned back to
-// world axes: turning all of the spin would let |L| creep by a thousandth in ten thousand sub-steps.
+// Returns the angular velocity after h seconds of torque-free rotation, by the implicit midpoint rule on Euler's
+// equations. The rule conserves kinetic energy and |L|, both quadratic (Hairer, Lubich, Wanner 2006, IV.2). Only the
+// change is rotated to world axes: otherwise, rounding would change |L| by a thousandth in ten thousand sub-steps.
 vec3 gyrated(vec3 spin, vec4 orientation, SphereShape shape, float h) {
-  if (dot(spin, spin) * h * h < 1e-8) return spin;  // slower than 1e-4 rad a sub-step: the term is below rounding
+  if (dot(spin, spin) * h * h < 1e-8) return spin;  // below 1e-4 rad per sub-step, the term is smaller than rounding
   vec3 before = rotate(quat_conjugate(orientation), spin), change = vec3(0.0);
   for (int i = 0; i < 6; ++i) {
     vec3 mid = before + 0.5 * change, momentum = symmetric_times(shape.inertia.xyz, shape.inertia_mixed.xyz, mid);
@@ -15,14 +15,14 @@ vec3 gyrated(vec3 spin, vec4 orientation, SphereShape shape, float h) {
   return spin + rotate(orientation, change);
 }
 
-// Of a body, turns counted at its radius.
+// Returns the speed (m/s) of body i: root of the squared velocity + squared (angular velocity x radius).
 float speed_of(uint i) {
   float radius = shapes[bodies[world.bodies.x + i].ids.x].box_center.w;
   return sqrt(dot(velocity_of(i).xyz, velocity_of(i).xyz) + radius * radius * dot(spin_of(i).xyz, spin_of(i).xyz));
 }
 
-// sum += change, and what single precision is too coarse for stays in `rest` for the next time. In double
-// precision: compilers may reorder an exact sum of floats.
+// Adds `change` to `sum`, and stores the remainder that single precision loses in `rest` for the next call. Double
+// precision is used because compilers may reorder a compensated sum of floats.
 void add_exactly(vec3 change, inout vec3 sum, inout vec3 rest) {
   dvec3 exact = dvec3(sum) + (dvec3(rest) + dvec3(change));
   sum = vec3(exact);
@@ -38,25 +38,25 @@ void integrate_velocity(uint i, float h) {
   add_exactly(h * world.gravity.xyz, v, rest);
   velocity_of(i).xyz = v;
   states[body].velocity_rest.xyz = rest;
-  vec4 own = spin_of(i);  // whole, as others may have written its last component
+  vec4 own = spin_of(i);  // all components, because other invocations may have written the last one
   spin_of(i) = vec4(gyrated(own.xyz, states[body].orientation, shapes[bodies[body].ids.x], h), own.w);
 }
 
-// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's travel
-// too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
+// Moves body i for h seconds. Sliding friction brakes steadily: with the speed at the end of a sub-step, a sliding part
+// would stop too early, so that its mean speed is used. Parts that stick, roll or swing would gain energy by that.
 void integrate_position(uint i, float h) {
   if (velocity_of(i).w == 0.0) return;
-  float slow = 4.0 * h * length(world.gravity.xyz);  // stops within a few sub-steps
+  float slow = 4.0 * h * length(world.gravity.xyz);  // m/s: a slower body stops within a few sub-steps
   if (turned_of(i).w == 1.0 && moved_of(i).w > slow) h *= mean_share(moved_of(i).w, speed_of(i));
   moved_of(i).xyz += h * velocity_of(i).xyz;
-  // Touched by nothing: exactly the parabola.
+  // A body without near contacts follows the parabola of free fall exactly.
   if (spin_of(i).w == 0.0) moved_of(i).xyz -= 0.5 * h * h * world.gravity.xyz;
   turned_of(i).xyz += h * spin_of(i).xyz;
   uint body = world.bodies.x + i;
   states[body].orientation = normalize(quat_multiply(quat_of_turn(h * spin_of(i).xyz), states[body].orientation));
 }
 
-// Returns whether the body fell freely.
+// Stores the pose and the velocity of body i at the end of the step. Returns whether the body fell freely.
 bool keep_body(uint i) {
   if (velocity_of(i).w == 0.0) return false;
   uint body = world.bodies.x + i;

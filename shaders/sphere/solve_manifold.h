@@ -1,8 +1,8 @@
-// Manifolds in the solve: the work of one invocation on one manifold. The includer defines where velocities are stored:
-// velocity_of(i) (w: inverse mass, 0 = nothing moves it in this step), spin_of(i) (w: 1 = a contact is near), moved_of(i)
-// (since contacts were found; w: speed when the sub-step began), turned_of(i) (rotation vector, since then; w: 1 = a
-// contact slips), i counted in the world. Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors,
-// Manifolds, Contacts, Order, Rows, Impulses, and sphere/body.h.
+// The work of one invocation on one manifold in the solve. The includer defines for body i of the world: velocity_of(i)
+// (m/s; w: inverse mass, 0 if not moved in this step), spin_of(i) (rad/s; w: 1 if a contact is near), moved_of(i) (m,
+// displacement since the start of the step; w: speed at the start of the sub-step), turned_of(i) (rad, rotation vector
+// since the start of the step; w: 1 if a contact slips). Needs the bindings Settings, Progress, Bodies, Shapes, States,
+// Tensors, Manifolds, Contacts, Order, Rows, Impulses, and sphere/body.h.
 #include "shared/language.h"
 #include "shared/sphere/row.h"
 #include "sphere/ball.h"
@@ -13,12 +13,12 @@
 
 #include "sphere/contact_row.h"
 
-// A contact of this invocation's has changed its speed by more than `tolerance` in the sweep.
+// Whether the sweep has changed the speed at a contact of this invocation by more than `tolerance`.
 bool unconverged = false;
 
 #include "sphere/contact_sweep.h"
 
-// Inertia of manifolds that are refreshed is of where their bodies are now. What cannot move has neither speed nor inertia.
+// Returns body i as a side of a manifold. refreshed: with the inertia of its present pose. All is 0 if it cannot move.
 Side side_of(uint i, float inverse_mass, bool refreshed) {
   Side s = Side(spin_of(i).xyz, inverse_mass, vec3(0.0), vec3(0.0));
   if (s.inverse_mass == 0.0) return s;
@@ -37,17 +37,17 @@ Side side_of(uint i, float inverse_mass, bool refreshed) {
   return s;
 }
 
-// impulse: on the body, of all contacts together (N s).
+// Stores the velocities of body i. v: its velocity before (m/s); impulse: sum of all contacts' impulses on it (N s).
 void keep_side(uint i, vec3 v, vec3 impulse, Side s) {
   if (s.inverse_mass == 0.0) return;
   velocity_of(i) = vec4(v + s.inverse_mass * impulse, s.inverse_mass);
-  spin_of(i) = vec4(s.w, 1.0);  // a contact is near
+  spin_of(i) = vec4(s.w, 1.0);  // w: a contact is near
 }
 
-// Where a body is now, and how far it has moved since contacts were found (m, rad).
+// The present pose of a body.
 struct Place {
-  vec3 position;
-  vec4 orientation;
+  vec3 position;     // centre of mass (m)
+  vec4 orientation;  // x, y, z, w; from body to world axes
 };
 
 Place place_of(uint i) {
@@ -58,17 +58,17 @@ Place place_of(uint i) {
                normalize(quat_multiply(quat_of_turn(turned_of(i).xyz), tensors[body].orientation)));
 }
 
-// What cannot move has not.
+// Motion of a body since the start of the step; 0 if it cannot move.
 struct Displacement {
-  vec3 moved, turned;
+  vec3 moved, turned;  // displacement (m), rotation vector (rad)
 };
 
 Displacement displacement_of(uint i) { return Displacement(moved_of(i).xyz, turned_of(i).xyz); }
 
-// A manifold as a sweep sees it.
+// The members of SphereOrdered that a sweep needs.
 struct Manifold {
-  uint a, b;  // bodies, counted in the world
-  uint kind, stride, row;
+  uint a, b;  // indices of the bodies within the world
+  uint kind, stride, row;  // row: index of the first row among those of all worlds, in vec4
   float slack, arm, yield, friction;
 };
 
@@ -82,39 +82,39 @@ bool has(Manifold m, uint flag) { return (m.kind & flag) != 0u; }
 
 uint first_contact(uint o) { return SPHERE_MAX_CONTACTS * (world.pairs.x + order[world.pairs.x + o].slot); }
 
-// Rows of a manifold and the contacts that they are of.
+// Loops over the rows (at) and the contacts (contact) of a manifold.
 #define FOR_CONTACTS(at, contact, m, o)                                                             \
   for (uint at = m.row, contact = first_contact(o), end_contact = contact + count_of(m.kind); contact < end_contact; \
        at += SPHERE_ROW_PARTS * m.stride, ++contact)
-// Rows of the contacts that may press. Each invocation processes them one by one.
+// Loops over the rows of the contacts that may press.
 #define FOR_NEAR(at, m)                                                            \
   for (uint left = near_of(m.kind), at = row_of(m, left); left != 0u; \
        left &= left - 1u, at = row_of(m, left))
 uint row_of(Manifold m, uint left) { return m.row + SPHERE_ROW_PARTS * m.stride * uint(findLSB(left)); }
 
 float friction_of(Manifold m) { return friction_share * m.friction; }
-// Returns whether a contact closes fast.
+// Marks the bodies of manifold o as near a contact. Returns whether a contact of the manifold closes fast.
 bool begin_manifold(uint o) {
   Manifold m = manifold_at(o);
-  spin_of(m.a).w = spin_of(m.b).w = 1.0;  // all that come here write the same
+  spin_of(m.a).w = spin_of(m.b).w = 1.0;  // all invocations write the same value
   return has(m, SPHERE_STRIKES);
 }
 
-// Which contacts may press.
+// Stores which contacts of manifold o may press (near: a bit for each), and the lower bound of the other gaps.
 void keep_near(uint o, uint near, inout Manifold m) {
   m.kind = with_near(m.kind, near);
   order[world.pairs.x + o].kind = m.kind;
   order[world.pairs.x + o].slack = m.slack;
 }
 
-// Gap of a contact, bodies having moved; to first order in the turns.
+// Returns the gap (m) of a contact after the motion of its bodies; the rotation is linearised.
 float gap_now(uint at, uint stride, Displacement a, Displacement b) {
   Row row = row_at(at, stride);
   vec3 moved = b.moved + cross(b.turned, row.rb) - a.moved - cross(a.turned, row.ra);
   return found_gap_at(at, stride) + dot(moved, row.normal);
 }
 
-// Levers, gap and masses of a contact that is hit, of where its bodies are now; returns the gap.
+// Computes the lever arms and masses of a contact of a refreshed manifold at the present poses. Returns its gap (m).
 float refresh_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Sides s) {
   Row row = row_at(at, stride);
   vec3 on_a = pa.position + rotate(pa.orientation, c.anchor_a), on_b = pb.position + rotate(pb.orientation, c.anchor_b);
@@ -123,7 +123,7 @@ float refresh_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Sid
   return gap;
 }
 
-// Gaps when bodies have moved, and which contacts may press from now on. What is hit keeps all.
+// Updates the gaps after bodies have moved, and which contacts may press from now on; all may if one of them strikes.
 void observe(uint o, bool refreshed, Sides s, inout Manifold m) {
   Displacement by_a = displacement_of(m.a), by_b = displacement_of(m.b);
   Place pa = Place(vec3(0.0), vec4(0.0)), pb = pa;
@@ -162,13 +162,13 @@ void resist_turn(Manifold m, inout Sides s) {
   resist(area.tip_axis, area.tipping, most_against_tipping(area, radius, arm), s);
 }
 
-// The bodies approach each other too fast to leave out any contact in this sub-step.
+// Marks all contacts of manifold o as near, because its bodies approach each other too fast to leave any out.
 void all_may_press(uint o, inout Manifold m) {
   m.slack = NO_LIMIT;
   keep_near(o, all_of(count_of(m.kind)), m);
 }
 
-// The normal of a contact. Returns whether there may be friction.
+// Solves the normal impulse of a contact, and updates `reach` (m). Returns whether it may have friction.
 bool push_contact(uint o, uint at, Row row, Give give, inout float reach, inout Manifold m, inout Sides s) {
   float change;
   bool slides = solve_normal(at, m.stride, row, give, has(m, SPHERE_STRIKES), change, s);
@@ -177,14 +177,14 @@ bool push_contact(uint o, uint at, Row row, Give give, inout float reach, inout 
   return slides;
 }
 
-// All normals, then all friction. Most manifolds have one contact that presses: the row of the first one stays in
-// registers between the two.
+// Solves all normal impulses of a manifold, then all friction. Most manifolds have one contact that presses: the row of
+// the first contact stays in registers between the two.
 void push_manifold(uint o, Give give, Manifold m, inout Sides s) {
   float reach = plan.sub_step * reach_of(s.between, s.a.w, s.b.w, m.arm);
   if (!(reach < m.slack)) all_may_press(o, m);
-  uint left = near_of(m.kind), slides = 0u;  // a bit a contact
+  uint left = near_of(m.kind), slides = 0u;  // one bit for each contact
   if (left == 0u) return;
-  uint first = row_of(m, left), done = left ^ left - 1u;  // contacts up to this one
+  uint first = row_of(m, left), done = left ^ left - 1u;  // done: bits of all contacts up to this one
   Row row = row_at(first, m.stride);
   bool first_slides = push_contact(o, first, row, give, reach, m, s);
   while ((left = near_of(m.kind) & ~done) != 0u) {
@@ -200,8 +200,8 @@ void push_manifold(uint o, Give give, Manifold m, inout Sides s) {
   }
 }
 
-// What a manifold does in sweeps other than those that merely repeat the one before. Few loops: on llvmpipe each costs a
-// turn even where it is not run, and an invocation has 65,535.
+// Does the additional work of a manifold in special kinds of sweeps (SWEEP_FIRST_PUSH and above). It has few loops: on
+// llvmpipe, each costs an iteration even if it is not run, and an invocation has at most 65,535.
 void begin_sweep(uint o, uint kind, bool refreshed, inout Manifold m, inout Sides s) {
   if (kind == SWEEP_FIRST_RELAX || refreshed && kind == SWEEP_WARM_START && first_sub_step) observe(o, refreshed, s, m);
   if (kind == SWEEP_FIRST_PUSH) resist_turn(m, s);
@@ -229,7 +229,7 @@ void solve_manifold(uint o, uint kind, Give give) {
   keep_side(m.b, vb.xyz, impulse, s.b);
 }
 
-// Whether a contact of the manifold is to bounce.
+// Returns whether a contact of manifold o must bounce at the end of the step, and sets the flag SPHERE_BOUNCES.
 bool bounces(uint o) {
   Manifold m = manifold_at(o);
   if (!has(m, SPHERE_RESTITUTES) || !has(m, SPHERE_STRIKES)) return false;
@@ -240,7 +240,7 @@ bool bounces(uint o) {
   return any;
 }
 
-// Impulses back into the contacts, as forces. An impact is over: it must not warm-start the next step.
+// Stores the impulses as forces in the contacts. The part due to an impact is omitted: it must not warm-start a step.
 void keep_forces(uint o) {
   Manifold m = manifold_at(o);
   bool restitutes = has(m, SPHERE_RESTITUTES);
@@ -259,11 +259,11 @@ void keep_forces(uint o) {
   manifolds[slot].state.w = uint(bitCount(near_of(m.kind))) + presses;
 }
 
-// Bodies with a contact that has all the friction that its force allows.
+// Marks the bodies of manifold o as slipping if a contact has the limit of its friction.
 void note_sliding(uint o) {
   Manifold m = manifold_at(o);
   float friction = friction_of(m);
   bool slip = false;
   FOR_NEAR(at, m) slip = slip || slips(friction * impulses[at].x, length(friction_at(at, m.stride)), 0.0);
-  if (slip) turned_of(m.a).w = turned_of(m.b).w = 1.0;  // all that come here write the same
+  if (slip) turned_of(m.a).w = turned_of(m.b).w = 1.0;  // all invocations write the same value
 }

@@ -6,16 +6,16 @@
 
 SphereWorld world;
 StepPlan plan;
-Give softly_now, firmly_now;  // how compliant contacts are before and after bodies move
-float friction_share;                   // share of friction that holds
-float kept;                   // share of the last step's forces that this one begins with
-bool first_sub_step;          // of the step
+Give softly_now, firmly_now;  // compliance of contacts in the sweeps before and after bodies move
+float friction_share;                   // factor of all coefficients of friction in this sub-step
+float kept;                   // share of the contact forces of the last step with which this step begins: 0 or 1
+bool first_sub_step;          // whether this is the first sub-step of the step
 float tolerance;              // m/s: a contact whose speed a sweep changes by more is not solved yet
 
-// What holds for sub-step k of world w.
+// Sets the values above for sub-step k of world w, except the tolerance.
 void take_sub_step_of(uint w, uint k) {
   float size = world.gravity.w;
-  vec4 softness = settings.softness[progress[w].stiffness];  // rate (of sub-steps), damping ratio, slop (d), refinement
+  vec4 softness = settings.softness[progress[w].stiffness];  // frequency, damping ratio, slop, refinement
   plan = plan_of(w);
   softly_now = softly(plan.sub_step, softness.x, softness.y, softness.z * size, settings.push_speed / softness.w * size);
   firmly_now = firmly(plan.sub_step);

@@ -1,5 +1,5 @@
-// The values that all work on a pair in one step uses. Needs the bindings Settings, Worlds, Progress, Bodies, States,
-// Shapes.
+// Values of a step that all passes over pairs use: world, plan, margin, samples and poses. Needs the bindings Settings,
+// Worlds, Progress, Bodies, States, Shapes.
 #include "sphere/body.h"
 #include "sphere/pair.h"
 #include "sphere/placement.h"
@@ -14,7 +14,7 @@ void take_world_of(SpherePair pair) {
   plan = plan_of(world_index);
 }
 
-// Distance at which contacts of the pair are kept.
+// Returns the distance (m) up to which candidates of a pair are found.
 float margin_of(SpherePair pair) { return settings.margin * size_of(pair) + travel_of(worlds[world_index], pair); }
 
 SphereSamples samples_of(uint body) {
@@ -23,5 +23,5 @@ SphereSamples samples_of(uint body) {
   return shapes[shape].coarse;
 }
 
-// Of a body of this world.
+// Returns the pose of a body of this world at the contact time.
 Placement placement_of(uint body) { return placement_of(body, plan.contact_time); }

@@ -1,15 +1,15 @@
-// The record of a body that the watch of a world (solver/world_watch.hpp) keeps on the device: places since which
-// displacement is measured, and kinetic energy. Needs the bindings Bodies, States, Shapes and Watched, and
+// The record of a body that WorldWatch (solver/world_watch.hpp) stores on the device (SphereWatched): positions from
+// which displacement is measured, and kinetic energy. Needs the bindings Bodies, States, Shapes and Watched, and
 // sphere/body.h.
 
 bool is_watched(uint body) { return present(body) && bodies[body].material.x > 0.0; }
 
-// From a place to where the body's centre of mass is (m). A place is a position, and what that is too coarse for.
+// Returns the displacement (m) of the centre of mass from a position with its remainder (`position_rest`).
 vec3 shift_from(vec3 position, vec3 position_rest, SphereState s) {
   return (s.position.xyz - position) + (s.position_rest.xyz - position_rest);
 }
 
-// J
+// Returns the kinetic energy of a body (J).
 float kinetic_of(uint body, SphereState s) {
   uint shape = bodies[body].ids.x;
   vec3 spin = rotate(quat_conjugate(s.orientation), s.spin.xyz);
@@ -17,7 +17,7 @@ float kinetic_of(uint body, SphereState s) {
   return 0.5 / bodies[body].material.x * (dot(s.velocity.xyz, s.velocity.xyz) + dot(spin, momentum));
 }
 
-// Of its fastest point (m/s).
+// Returns an upper bound of the speed (m/s) of any point of a body.
 float swiftness_of(uint body, SphereState s) {
   return length(s.velocity.xyz) + shapes[bodies[body].ids.x].box_center.w * length(s.spin.xyz);
 }

@@ -13,13 +13,13 @@ bool sheet_in_reach(ThesisSheet sheet, vec4 center) {
   return height < center.w + sheet.origin.w && height > -sheet.surface.z;
 }
 
-// So far in that a node's sphere would push sideways or out through the back: pushed back along the sheet's normal by
-// the nearest node alone. Sheets are one-sided; a stored layer of spheres would leak here.
+// Returns whether a sphere is so deep in a sheet that nodes would push it sideways or out through the back. It is then
+// pushed along the normal of the sheet, by the nearest node only. A stored layer of spheres would let it pass.
 bool sheet_deep(ThesisSheet sheet, vec4 center) {
   return sheet_height(sheet, center) < 0.5 * (center.w + sheet.origin.w);
 }
 
-// The node du, dv steps from the one nearest to the sphere.
+// Returns the position (m, along u and v) of the node that is du and dv steps from the node nearest to the sphere.
 vec2 node_position(ThesisSheet sheet, vec4 center, int du, int dv) {
   return (round(sheet_position(sheet, center) / sheet.normal.w) + vec2(du, dv)) * sheet.normal.w;
 }
@@ -40,12 +40,12 @@ float node_depth(ThesisSheet sheet, vec4 center, int du, int dv) {
   return center.w + sheet.origin.w - height;
 }
 
-// Index of the sheet in its world and steps from the nearest node: the same in every batch.
+// Packs the index of a sheet in its world and the steps from the nearest node; the code is the same in every batch.
 uint node_code(uint sheet, int du, int dv) { return THESIS_NODE | sheet << 16 | uint(du + 128) << 8 | uint(dv + 128); }
 
-// Direction of the push on this sphere: along the centres, or the true surface's normal where one of the two (or
-// their mean, where both) lies on a face. Antisymmetric in the two spheres, so that both bodies get opposite pushes.
-// A face's normal far from the line of centres belongs to another side of the part: not used.
+// Returns the unit direction of the push on this sphere: the line of centres, or the normal of the face on which one
+// sphere is; if both are on faces, the mean of both normals. For the other sphere the result is exactly opposite. A
+// normal that is more than 60 degrees from the line belongs to another side of the part and is not used.
 vec3 contact_normal(vec3 line, vec4 own, vec4 other) {
   if (settings.modified_normals == 0u) return line;
   vec3 n = other.w * other.xyz - own.w * own.xyz;
@@ -64,17 +64,17 @@ vec3 velocity_at(uint body, vec3 point) {
   return states[body].velocity.xyz + cross(states[body].spin.xyz, point - states[body].position.xyz);
 }
 
-// Speed at which the two are to part: the bounce of an approaching contact, or the bias out of a penetration (eq 2.29),
-// whichever is larger. `left`: depth that is left alone.
-// Guendelman et al. 2003: bodies collide with the velocities they had before this step's gravity, which then acts on
-// the bounce; a contact slower than the threshold rests. With gravity taken into the bounce, it would gain energy.
+// Returns the speed (m/s) at which the two bodies must separate: the larger of the rebound and the bias velocity that
+// removes overlap (eq 2.29). `left`: depth of overlap (m) that is not removed.
+// Guendelman et al. 2003: bodies collide with their velocities before the gravity of this step, which acts afterwards;
+// a contact slower than the threshold does not bounce. If gravity were part of the rebound, it would add energy.
 float separation_speed(ThesisContact contact, uint body, float left, float restitution) {
   vec3 point = states[body].position.xyz + contact.arm.xyz;
   vec3 fall = settings.time_step * worlds[bodies[body].range.z].gravity.xyz;
   vec3 v = velocity_at(body, point);
   if ((contact.other.y & THESIS_NODE) == 0u) {
     v -= velocity_at(contact.other.y, point);
-    if (bodies[contact.other.y].inverse_inertia.w > 0.0) fall = vec3(0.0);  // both fall alike
+    if (bodies[contact.other.y].inverse_inertia.w > 0.0) fall = vec3(0.0);  // gravity accelerates both bodies equally
   }
   float approach = -dot(contact.normal.xyz, v - fall);
   bool rests = approach <= worlds[bodies[body].range.z].gravity.w;
@@ -110,12 +110,12 @@ ThesisContact contact_with(uint other, uint sphere, uint body, ThesisWorld world
 
   vec3 apart = center.xyz - other_center.xyz;
   float size = length(apart);
-  // Spheres in one place: any direction will do, if it is opposite for the two.
+  // If the centres coincide, any direction is valid that is opposite for the two spheres.
   line = size > 0.0 ? apart / size : vec3(0.0, 0.0, sphere > other ? 1.0 : -1.0);
   vec4 own_face = settings.modified_normals != 0u ? face_normal(sphere) : vec4(0.0);
   vec3 n = deep ? other_face.xyz : contact_normal(line, own_face, other_face);
 
-  // In the centre of the overlap, on the line of centres: the same point seen from both spheres.
+  // The contact point is in the middle of the overlap on the line of centres; it is the same for both spheres.
   vec3 point = center.xyz - line * (center.w - 0.5 * depth);
   if (deep) point = center.xyz - n * center.w;
   ThesisContact contact;

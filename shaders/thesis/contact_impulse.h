@@ -1,27 +1,27 @@
-// Impulse of one contact in one iteration: what the velocities, as they are, still ask for. In a contact alone it is
-// eq 2.30 over k (eq 3.5). Where the thesis's text and mechanics part:
-//  - Friction. Eq 2.30 applies mu j along the slip however small it is, and so turns a slow slip round in every
-//    iteration. Here the tangential impulse is the one that stops the slip, and the sum over the iterations is kept
-//    within Coulomb's cone: a sliding contact ends with mu j against the slip as in eq 2.30, a slow one sticks.
-//  - Iterations. The sum, not each part, has to push: an iteration may take back what an earlier one gave too much
-//    (accumulated impulses, Catto 2006, the paper the thesis takes its bias from).
-//  - Restitution and bias. Eq 2.30 adds them, so a bounce that starts a little deep leaves faster than it came. Here
-//    the larger of the two is the speed of separation to reach, set once before the iterations.
-//  - Mass splitting. k counts one pair of bodies. Where each of a body's n neighbours sees the whole of its mass, their
-//    impulses add up to more than is needed, and iterations drive a pile apart instead of solving it. Bodies n times as
-//    light (Tonge, Benevolenski, Voroshilov 2012) cannot overshoot, but converge slowly; Jacobi iteration bears up to
-//    twice that step. With one neighbour eq 3.5 holds as it is. docs/lab/thesis.md has the figures.
+// Computes the impulse of one contact in one iteration from the present velocities. For a single contact, it is eq 2.30
+// of the thesis divided by k (eq 3.5). The code deviates from the thesis where its equations contradict mechanics:
+//  - Friction. Eq 2.30 applies the impulse mu j against the slip however slow it is, and thus reverses a slow slip
+//    in each iteration. Here the tangential impulse stops the slip, and its sum over the iterations is limited to
+//    Coulomb's cone: a sliding contact ends with mu j against the slip as in eq 2.30, and a slow one sticks.
+//  - Iterations. Only the sum of the impulses must not pull: an iteration may reduce the impulse of an earlier one
+//    (accumulated impulses, Catto 2006, from which the thesis has its bias velocity).
+//  - Restitution and bias. Eq 2.30 adds them, so that a rebound from an overlap is faster than the impact. Here the
+//    larger of the two is the speed of separation to reach; it is determined once before the iterations.
+//  - Mass splitting. k counts the contacts of one pair. If each of the n neighbours of a body uses its whole mass, the
+//    sum of their impulses is too large, and the iterations push a heap apart. With bodies n times as light (Tonge,
+//    Benevolenski, Voroshilov 2012), they cannot overshoot but converge slowly; Jacobi iteration is stable up to twice
+//    that step. With one neighbour, eq 3.5 holds unchanged. docs/lab/thesis.md has measurements.
 const float over_relaxation = 1.9;
 float lighter(uint neighbours) { return max(1.0, float(neighbours) / over_relaxation); }
 
 struct Side {
   vec3 position, velocity, spin;
-  float inverse_mass;    // of the split body
-  vec3 diagonal, mixed;  // inverse inertia xx yy zz, xy xz yz; of the split body
+  float inverse_mass;    // 1/kg, after mass splitting
+  vec3 diagonal, mixed;  // inverse inertia tensor (1/(kg m2)), after mass splitting: xx yy zz, and xy xz yz
 };
 const Side still = Side(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
 
-// Change of the side's velocity at `arm` by the impulse `p` there: the bracket of eq 2.30's divisor.
+// Returns the change of a body's velocity at the point `arm` by an impulse `p` there (bracket in eq 2.30's divisor).
 vec3 response(Side side, vec3 arm, vec3 p) {
   return side.inverse_mass * p + cross(symmetric_times(side.diagonal, side.mixed, cross(arm, p)), arm);
 }

@@ -15,20 +15,20 @@
 
 namespace bin_scenes {
 
-/// A part of an image, or an image.
+/// Identifies a part in an image, or an image as a whole.
 struct AuditPlace {
   static constexpr std::size_t image = SIZE_MAX;
-  std::size_t view = 0;       ///< index into BopSet::views
-  std::size_t entry = image;  ///< index in scene_gt
+  std::size_t view = 0;       ///< index of the image in BopSet::views
+  std::size_t entry = image;  ///< index of the part in the image's scene_gt; `image`: the whole image
 };
 
-/// A figure of every part, or of every image.
+/// A quantity that is measured for every part or for every image.
 struct AuditMeasure {
-  const char* key;  ///< key of the option --limit
+  const char* key;  ///< name of the measure in the option --limit
   const char* name;
   const char* unit;
-  double limit;  ///< values above it are counted
-  bool strict;   ///< nothing may be above the limit; otherwise a share of the parts may
+  double limit;  ///< largest acceptable value; larger values are counted
+  bool strict;   ///< true: no value may exceed the limit; false: a share of the values may
   std::vector<double> values = {};
   std::vector<AuditPlace> places = {};  ///< where each value was measured
   void add(double value, const AuditPlace& place) {
@@ -57,38 +57,38 @@ struct AuditFigures {
   AuditMeasure camera{"camera", "images shifted against K", "px", 0.75, true};
   AuditMeasure depth_common{"depth_common", "depth of whole images off from the models'", "mm", 5.0, true};
   std::size_t scenes = 0, heaps = 0, parts = 0, escaped = 0;
-  std::map<std::size_t, LabelledImage> images;  ///< by view
-  std::vector<std::string> faults;              ///< errors that concern the whole set
+  std::map<std::size_t, LabelledImage> images;  ///< labels of each image, by index into BopSet::views
+  std::vector<std::string> faults;              ///< errors that concern the whole data set
 
   std::vector<AuditMeasure*> all();
 };
 
-/// Views of one heap: several images of the same parts in the same places.
+/// The images of one heap: they show the same parts at the same poses.
 struct AuditHeap {
   std::vector<const BopView*> views;
 };
 std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures);
 
-/// The surroundings of the parts.
+/// The surroundings of the parts in a heap: bin or table, and parts that are not in the ground truth.
 struct AuditBin {
   /// A part that is in the heap without being in the ground truth.
   struct Other {
-    PartLine line;  ///< the model: `path`, and how it is read
+    PartLine line;  ///< path and loading options of its model
     Pose in_world;
   };
   std::vector<Other> others;
-  std::optional<Vec3> inner_size;  ///< m; a box around the world's origin, with its floor at z = 0
-  std::optional<double> floor;     ///< m; a table at this height
-  bool fitted = false;  ///< a box as wide as the parts of each heap. None of all: a table where the lowest end
+  std::optional<Vec3> inner_size;  ///< m; the bin is a box around the world's origin, its floor at z = 0
+  std::optional<double> floor;     ///< m; the parts are on a table at this height
+  bool fitted = false;             ///< the bin is a box around each heap. If none is set: a table at the lowest parts
 };
 
 class Auditor {
  public:
   explicit Auditor(const BopSet& set);
-  /// Parts of one heap: overlap, gap and drift.
+  /// Measures overlap, gap and drift of the parts of one heap, and adds the values to `figures`.
   void audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& figures);
-  /// Labels of all images of the heaps that were audited: camera_error.hpp, labels.hpp.
-  /// @param progress  called with the share that is done
+  /// Compares the labels of all images of the audited heaps with the models (camera_error.hpp, labels.hpp).
+  /// @param progress  is called with the completed share, 0 to 1
   void audit_labels(AuditFigures& figures, const std::function<void(double)>& progress);
 
  private:
@@ -105,7 +105,7 @@ class Auditor {
   const BopSet& set_;
   std::map<int, PartModelPtr> models_;
   Generator generator_;
-  std::map<std::size_t, Surroundings> around_;  ///< by view, of those that were audited
+  std::map<std::size_t, Surroundings> around_;  ///< surroundings of the audited images, by index into BopSet::views
 };
 
 }  // namespace bin_scenes

@@ -12,11 +12,11 @@
 
 namespace bin_scenes {
 
-double share_above(const AuditMeasure& measure);
-/// Whether the data set fails by this measure: strict ones by any value, others by more than `share` of the values.
+double share_above(const AuditMeasure& measure);  ///< returns the share of the values above the limit
+/// Whether the data set fails by a measure: one value above the limit if strict, otherwise more than the share `share`.
 bool exceeds(const AuditMeasure& measure, double share);
 
-/// Sets limits as "key=value". Throws an input Error that lists the keys.
+/// Sets the limits of measures from texts "key=value". Throws an input Error that lists the keys.
 void set_limits(AuditFigures& figures, const std::vector<std::string>& limits);
 
 /// Finds instance ids that occur twice in an image, that differ between views of the same heap, or that are not written

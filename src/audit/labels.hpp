@@ -24,30 +24,30 @@ struct LabelFigures {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< px, centre of the model's silhouette
   std::optional<double> iou;                     ///< intersection over union of mask and silhouette, see tolerant_iou()
   std::optional<double> iou_visible;     ///< intersection over union of mask_visib and the visible region, which is
-                                         ///< determined by rays or by bop_toolkit's rule
+                                         ///< found by rays or by bop_toolkit's rule
   std::optional<Eigen::Vector2d> shift;  ///< px, of the mask against the silhouette: x right, y down
-  std::optional<double> depth;           ///< mm, median of measured less model's depth
-  double depth_spread = 0.0;             ///< mm, robust standard deviation of the pixels of `depth`
-  double depth_error = 0.0;              ///< mm, standard error of `depth` by that
-  double model_depth = 0.0;              ///< m, mean of the pixels of `depth`
+  std::optional<double> depth;           ///< mm, median of measured depth minus depth of the model
+  double depth_spread = 0.0;             ///< mm, robust standard deviation of this difference over the pixels
+  double depth_error = 0.0;              ///< mm, standard error of `depth` according to depth_spread
+  double model_depth = 0.0;              ///< m, mean depth of the model over these pixels
   double obliqueness = 0.0;              ///< mean of distance / depth - 1 of these pixels
-  std::optional<double> visible;         ///< visib_fract less what the audit finds by the same rule
-  std::optional<double> counted;         ///< %, px_count_visib against the pixels of mask_visib
-  std::vector<std::string> faults;       ///< missing masks, exchanged labels
+  std::optional<double> visible;         ///< visib_fract minus the fraction that the audit finds by the same rule
+  std::optional<double> counted;         ///< %, deviation of px_count_visib from the pixels of mask_visib
+  std::vector<std::string> faults;       ///< faults of the part's labels, as text: missing masks, exchanged labels
 };
 
 struct LabelledImage {
   int width = 0, height = 0;
-  std::vector<LabelFigures> parts;  ///< by entry
-  std::vector<std::string> faults;  ///< missing files
+  std::vector<LabelFigures> parts;  ///< by entry of scene_gt
+  std::vector<std::string> faults;  ///< files that are missing, as text
   CameraError camera;               ///< error of the stated camera, including that of the whole set
-  double depth_offset = 0.0;        ///< mm, median of the parts' measured less model's depth
+  double depth_offset = 0.0;        ///< mm, median over the parts of measured depth minus depth of the model
 };
 
-/// The surroundings that hide parts in addition to other parts.
+/// The bin and further parts, which may hide the parts of the ground truth.
 struct Surroundings {
   Bin bin;
-  Pose shift;  ///< from the set's world to the bin frame
+  Pose shift;  ///< transform from the world frame of the data set to the bin frame
   struct Other {
     PartModelPtr model;
     Pose in_world;
@@ -58,7 +58,7 @@ struct Surroundings {
 class LabelAuditor {
  public:
   LabelAuditor(const BopSet& set, const std::map<int, PartModelPtr>& models, SensorRig& rig);
-  /// `error`: of the stated camera, which is corrected before anything is compared.
+  /// Compares the labels of an image with the models. The camera is corrected by `error` before.
   LabelledImage compare(const BopView& view, const Surroundings& around, const CameraError& error) const;
 
  private:
@@ -74,7 +74,7 @@ class LabelAuditor {
 
   const std::map<int, PartModelPtr>& models_;
   SensorRig& rig_;
-  std::map<std::string, std::set<std::string>> kinds_;  ///< of images and masks that scenes of the set have, by suffix
+  std::map<std::string, std::set<std::string>> kinds_;  ///< kinds of images and masks in the data set, by suffix
 };
 
 }  // namespace bin_scenes

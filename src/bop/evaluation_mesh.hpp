@@ -10,8 +10,8 @@ namespace bin_scenes {
 /// Largest distance from a point of the surface to a vertex of the evaluation mesh, as a share of the diagonal.
 constexpr double evaluation_spacing = 0.06;
 
-/// As bop_toolkit's remesh_models_for_eval does by MeshLab: edges are halved until they are short, then the vertices of
-/// each cell of a grid become one: a vertex of the model, if there is one, so that corners stay where they are.
+/// Returns a mesh made as by remesh_models_for_eval of bop_toolkit: edges are halved until they are short; then the
+/// vertices of each grid cell are merged, if possible to a vertex of the model, so that corners are kept.
 Mesh evaluation_mesh(const Mesh& mesh);
 
 }  // namespace bin_scenes

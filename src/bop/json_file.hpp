@@ -11,7 +11,7 @@
 
 namespace bin_scenes {
 
-/// The JSON map in a file; none if it is missing or damaged. @tparam Json  nlohmann::json or ordered_json
+/// Returns the JSON map in a file; none if it is missing or damaged. @tparam Json  nlohmann::json or ordered_json
 template <class Json>
 std::optional<Json> json_map_in(const std::filesystem::path& path) {
   std::error_code ignored;

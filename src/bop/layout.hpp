@@ -1,6 +1,6 @@
 /// The names and paths of a BOP data set whose folders are scenes (github.com/thodan/bop_toolkit,
-/// docs/bop_datasets_format.md, bop_toolkit_lib/dataset_params.py). No other file spells them, and this one writes
-/// nothing.
+/// docs/bop_datasets_format.md, bop_toolkit_lib/dataset_params.py). No other file contains these names, and this one
+/// writes nothing.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"
@@ -11,7 +11,7 @@
 
 namespace bin_scenes {
 
-constexpr double bop_least_visible = 0.1;  ///< share below which bop_toolkit's evaluation ignores an object
+constexpr double bop_least_visible = 0.1;  ///< visible fraction below which bop_toolkit's evaluation ignores an object
 
 /// Formats a number with leading zeros, as BOP does for scenes, images, masks and objects.
 std::string six_digits(std::size_t number);
@@ -35,10 +35,10 @@ std::vector<BopPlace> bop_places(const BopLayout& layout, const std::vector<Sens
 
 /// Returns the path of a picture of the scene, relative to the scene's folder.
 std::string bop_picture(const BopLayout& layout);
-/// Suffix of the sensor that estimators are evaluated on.
+/// Returns the suffix of the files of the sensor on which pose estimators are evaluated.
 std::string bop_suffix(const BopLayout& layout);
 
-/// What the folder of a scene has of one sensor. A kind of masks is "mask" or "mask_visib".
+/// Paths of the files of one sensor in the folder of a scene. A kind of masks is "mask" or "mask_visib".
 struct BopFiles {
   std::filesystem::path scene;
   std::string suffix;
@@ -48,7 +48,7 @@ struct BopFiles {
   std::filesystem::path info() const { return json("gt_info"); }
   std::filesystem::path coco() const { return json("gt_coco"); }
   std::filesystem::path run_lengths(const std::string& kind) const { return json(kind); }
-  /// Folder of the images or masks of a kind.
+  /// Returns the folder of the images or masks of a kind.
   std::filesystem::path folder(const std::string& kind) const { return scene / (kind + suffix); }
   std::filesystem::path mask(const std::string& kind, std::size_t image, std::size_t entry) const;
 
@@ -58,7 +58,7 @@ struct BopFiles {
 /// Returns the suffixes of the sensors for which a folder has a scene_gt file, sorted; none if it is no scene.
 std::vector<std::string> bop_suffixes_in(const std::filesystem::path& folder);
 
-/// Paths of the files in a folder of models.
+/// Return the paths of models_info.json and of the mesh of an object in a folder of models.
 std::filesystem::path bop_models_info(const std::filesystem::path& models);
 std::filesystem::path bop_model_file(const std::filesystem::path& models, std::size_t object);
 

@@ -12,16 +12,16 @@
 
 namespace bin_scenes {
 
-/// A rectangle of an image; pixels outside of it are 0.
+/// A mask that is stored only within a rectangle of the image (pixels); pixels outside of it are 0.
 struct MaskBox {
   int left = 0, top = 0, width = 0, height = 0;
   std::vector<std::uint8_t> inside;  ///< row-major, 0 or 1
 };
-/// The pixels of a part's box that truly show it.
+/// Returns the pixels in the box of a part that show the part in the true image.
 MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box);
 MaskBox whole_mask(const Silhouette& silhouette);
 
-/// A mask of the size of its image.
+/// A mask that is stored for all pixels of the image.
 struct BinaryImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> inside;  ///< row-major, 0 or 1
@@ -33,15 +33,15 @@ struct BinaryImage {
   std::size_t count() const;
 };
 
-/// A PNG file of the whole image, 8 bits a pixel, 0 or 255. It is made fast where nearly everything is 0: a scene of a
-/// data set holds hundreds of masks.
+/// Returns a PNG file of the whole image with 8 bits per pixel, 0 or 255. It is encoded fast where nearly all pixels
+/// are 0, because a scene of a data set has hundreds of masks.
 Bytes mask_png(int width, int height, const MaskBox& box);
 
 std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height);
-/// {entry: {counts, size}}, as in mask.json of BOP's layout by images.
+/// Returns {entry: {counts, size}} for all masks, as in mask.json of BOP's layout by images.
 nlohmann::ordered_json run_lengths_of(const std::vector<MaskBox>& masks, int width, int height);
-/// Reads them. `json`: {"size": [height, width], "counts": a list, or the compressed text of pycocotools}. Throws an
-/// input Error at `where`.
+/// Reads run lengths. `json`: {"size": [height, width], "counts": a list, or the compressed text of pycocotools}.
+/// Throws an input Error that names `where`.
 BinaryImage from_run_lengths(const std::string& json, const std::string& where);
 
 }  // namespace bin_scenes

@@ -15,22 +15,22 @@
 namespace bin_scenes {
 
 struct BopPart {
-  int object = 0;
-  Pose in_camera;                  ///< m, of the model
-  Pose in_world;                   ///< m; z up
-  std::optional<double> visible;   ///< visib_fract as stated
-  std::optional<long> px_visible;  ///< px_count_visib as stated
-  std::optional<int> id;           ///< number of the instance, which only data sets of this project state
+  int object = 0;                  ///< BOP's obj_id of the model
+  Pose in_camera;                  ///< pose of the model in the camera frame (m)
+  Pose in_world;                   ///< pose of the model in the world frame (m), whose z axis points up
+  std::optional<double> visible;   ///< visible fraction that the data set states (visib_fract)
+  std::optional<long> px_visible;  ///< number of visible pixels that the data set states (px_count_visib)
+  std::optional<int> id;           ///< number of the instance; only data sets of this project state it
 };
 
 /// One image of a heap: its camera, and the parts that it shows.
 struct BopView {
-  std::filesystem::path scene;  ///< folder
+  std::filesystem::path scene;  ///< folder of the scene
   std::string suffix;           ///< suffix of the names of its files: "" or "_SENSOR"
-  int image = 0;
-  std::array<double, 9> k{};
-  double depth_scale = 1e-3;  ///< m a count of the depth image
-  Pose camera;                ///< from the camera to the world
+  int image = 0;                ///< number of the image, BOP's im_id
+  std::array<double, 9> k{};    ///< camera matrix (px), row-major
+  double depth_scale = 1e-3;    ///< m, depth of one count of the depth image
+  Pose camera;                  ///< transform from the camera frame to the world frame
   std::vector<BopPart> parts;
 
   BopFiles files() const { return {scene, suffix}; }
@@ -39,19 +39,19 @@ struct BopView {
 struct BopReadOptions {
   std::string sensor;  ///< the sensor to read, in a data set with several; empty: the first one
   std::optional<Vec3>
-      up;  ///< upward direction in the world of the data set, or in the camera's frame if the data set states no world
-  std::string models;  ///< folder; empty: models beside or above the scenes
+      up;              ///< upward direction in the world of the data set, or in the camera frame if there is no world
+  std::string models;  ///< folder of the models; empty: the folder `models` beside or above the scenes
 };
 
 struct BopSet {
-  std::map<int, std::string> models;  ///< path of the mesh by object, of those that scenes show
-  bool world_stated = true;    ///< false: images have no cam_R_w2c, and up is taken to be against the camera's axis
-  std::vector<BopView> views;  ///< in order of scene and image
+  std::map<int, std::string> models;  ///< path of the mesh of each object that occurs in the scenes, by obj_id
+  bool world_stated = true;  ///< false: images have no cam_R_w2c; `up` is then taken as the reverse of the camera axis
+  std::vector<BopView> views;  ///< all images, in the order of scenes and images
 };
 
-/// Folders with scene_gt*.json at `root` or up to three levels below it. Throws an input Error, with file and image,
-/// for what is missing, damaged or makes no sense: models, matrices that are no rotations, lengths that are not
-/// millimetres.
+/// Reads all folders with scene_gt*.json at `root` or up to three levels below it. Throws an input Error that names
+/// file and image if something is missing, damaged or implausible: models, matrices that are no rotations, lengths that
+/// are not in millimetres.
 BopSet read_bop_set(const std::string& root, const BopReadOptions& options = {});
 
 }  // namespace bin_scenes

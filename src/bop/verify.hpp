@@ -12,18 +12,18 @@
 namespace bin_scenes {
 
 struct BopModel {
-  std::vector<Vec3> vertices;  ///< mm
+  std::vector<Vec3> vertices;  ///< vertices of the mesh (mm)
 };
-/// The folders models and models_eval. Returns the models by object.
+/// Checks the folders models and models_eval; returns the models by obj_id.
 std::map<int, BopModel> verify_models(const BopFolder& folder, Findings& findings);
 
-/// A scene in both of its folders.
+/// A scene to be checked, with its folder in BOP's layout and its folder in this project's layout.
 struct BopScene {
-  std::filesystem::path bop;  ///< in BOP's layout
-  std::filesystem::path own;  ///< with scene.json, request.yaml and images
+  std::filesystem::path bop;  ///< folder in BOP's layout
+  std::filesystem::path own;  ///< folder with scene.json, request.yaml and images
   std::string split;
-  const SceneFile& file;    ///< scene.json
-  bool has_labels = false;  ///< true labels are among the images
+  const SceneFile& file;    ///< contents of scene.json
+  bool has_labels = false;  ///< whether true labels are among the images
 };
 void verify_bop(const BopFolder& folder, const BopScene& scene, const std::map<int, BopModel>& models,
                 Findings& findings);

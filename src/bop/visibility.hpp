@@ -14,25 +14,25 @@
 namespace bin_scenes {
 
 struct BopVisibility {
-  std::array<int, 4> box = {-1, -1, -1, -1};  ///< x, y, of the last pixel less the first: width and height
-  std::array<int, 4> visible_box = {-1, -1, -1, -1};
-  std::size_t all = 0, valid = 0, visible = 0;  ///< pixels; `all` includes pixels outside the image
-  MaskBox whole_mask, visible_mask;
+  std::array<int, 4> box = {-1, -1, -1, -1};          ///< x, y, last x - first, last y - first of the silhouette
+  std::array<int, 4> visible_box = {-1, -1, -1, -1};  ///< the same for the visible pixels
+  std::size_t all = 0, valid = 0, visible = 0;  ///< pixels: silhouette (also outside the image), measured, visible
+  MaskBox whole_mask, visible_mask;             ///< pixels of the silhouette, and visible pixels
 };
 
-/// A pixel is visible if it truly shows the part, whether it was measured or not. No pixel shows two parts.
-/// `counts`: the depth image as it is stored. `seen_box`: of the part's pixels.
+/// Returns the visibility of part `id` by the true image: a pixel is visible if it truly shows the part, measured or
+/// not. `counts`: stored depth image. `seen_box`: box of the visible pixels of the part.
 BopVisibility true_visibility(const RangeImage& image, const std::vector<std::uint16_t>& counts, int id,
                               const PixelBox& seen_box, const Mesh& mesh, const Pose& model_in_camera);
 
 /// Determines the visible pixels of a part: a pixel is visible if the part is no more than `tolerance` (m) behind the
 /// measured distance, or if nothing was measured there. Returns none if a part of the mesh is beside or behind the
 /// camera.
-/// @param distance  of each pixel from the camera (m); 0 = not measured
+/// @param distance  measured distance from the camera (m) for each pixel; 0: not measured
 std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_in_camera, const Lens& lens,
                                             const std::vector<float>& distance, double tolerance);
 
-/// Converts depth along the optical axis to distance from the camera.
+/// Converts depth along the optical axis (m) of each pixel to distance from the camera (m).
 std::vector<float> distances(const std::vector<float>& depth, const Lens& lens);
 
 }  // namespace bin_scenes

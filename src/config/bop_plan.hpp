@@ -14,16 +14,16 @@ namespace bin_scenes::config {
 
 struct BopPlan {
   BopLayout layout;
-  std::optional<double> tolerance;  ///< m, of visible: measured
-  bool measured = false;
-  bool run_lengths = false;      ///< masks as run lengths instead of PNG files
-  std::size_t most_targets = 0;  ///< visible parts of an image that is a target; 0: any number
+  std::optional<double> tolerance;  ///< depth tolerance (m) of visible pixels; used if `measured`
+  bool measured = false;            ///< whether measured depth decides which pixels are visible
+  bool run_lengths = false;         ///< whether masks are stored as run lengths instead of PNG files
+  std::size_t most_targets = 0;     ///< images with more visible parts are no targets; 0: no limit
 };
 
-/// @param own   the plan's key; may be undefined
-/// @param sensors  of the request; none: not known, names are not checked
-/// @param rig   defaults that the request's rig states for keys that the plan lacks; may be undefined
-/// @param complain  takes problem, key below "bop" and remedy
+/// @param own      value of the key `bop` of the plan; may be undefined
+/// @param sensors  sensors of the request; empty: they are not known, and names of sensors are not checked
+/// @param rig      values that the rig of the request states, for keys that the plan lacks; may be undefined
+/// @param complain  is called for each error, with the problem, the key below `bop`, and a remedy
 BopPlan read_bop_plan(
     const YAML::Node& own, const YAML::Node& rig, const std::vector<Sensor>& sensors,
     const std::function<void(const std::string& problem, const std::string& key, const std::string& remedy)>& complain);

@@ -14,42 +14,42 @@
 
 namespace bin_scenes::config {
 
-/// What is drawn is text in YAML's flow style, as --set takes it.
+/// The distribution of one key. Drawn values are text in YAML's flow style, in the form that the option --set accepts.
 struct Distribution {
   enum class Kind {
-    constant,  ///< any value
-    uniform,   ///< [min, max]; whole numbers if both are written as such
-    normal,    ///< [mean, sigma], within min and max if they are given
+    constant,  ///< always the same value, of any type
+    uniform,   ///< uniform in [min, max]; integers if both bounds are written as integers
+    normal,    ///< Gaussian [mean, sigma], cut off at min and max if they are given
     choice,    ///< one of several values of any type, with weights
-    times,     ///< the request's own number, or each of its numbers, times what is drawn
+    times,     ///< the value of the request, or each number of its list, multiplied by a drawn factor
     jitter,    ///< a pose moved by at most `move` (m) and turned by at most `turn` (rad)
     view       ///< a pose that looks at `target` from `distance` (m), `tilt` (rad) from above, at `turn` (rad) around z
   };
   Kind kind = Kind::constant;
-  std::vector<std::string> values;  ///< constant: one; choice: several
-  std::vector<double> weights;      ///< choice
-  double a = 0.0, b = 0.0;          ///< uniform: bounds; normal: mean and standard deviation
-  bool whole = false;
-  std::optional<double> min, max;
-  std::shared_ptr<Distribution> factor;                      ///< times
-  std::shared_ptr<Distribution> distance, tilt, turn, roll;  ///< view
-  Pose pose;                                                 ///< jitter
-  double move = 0.0, angle = 0.0;                            ///< jitter
-  Vec3 target = Vec3::Zero();                                ///< view
+  std::vector<std::string> values;       ///< constant: one; choice: several
+  std::vector<double> weights;           ///< choice
+  double a = 0.0, b = 0.0;               ///< for uniform: bounds; for normal: mean and standard deviation
+  bool whole = false;                    ///< for uniform: only integers are drawn
+  std::optional<double> min, max;        ///< bounds of `normal`
+  std::shared_ptr<Distribution> factor;  ///< distribution of the factor of `times`
+  std::shared_ptr<Distribution> distance, tilt, turn, roll;  ///< distributions of the camera of `view` (m, rad)
+  Pose pose;                                                 ///< pose that `jitter` changes
+  double move = 0.0, angle = 0.0;  ///< largest displacement (m) and rotation (rad) of `jitter`
+  Vec3 target = Vec3::Zero();      ///< point at which the camera of `view` looks (m)
 
-  /// @param own  the request's own value, for `times`
+  /// @param own  value that the request itself has for the key; `times` multiplies it
   std::string draw(Random& random, const YAML::Node& own) const;
   double number(Random& random) const;  ///< draws a number; only for uniform, normal and constant numbers
-  /// Values at the ends of what can be drawn.
+  /// Returns values at the ends of the distribution, with which a plan is checked before anything is drawn.
   std::vector<std::string> ends(const YAML::Node& own) const;
 };
 
-/// Faults go to the source, with their lines; none then.
+/// Reads a distribution. Errors are reported to `source`, with their lines; the result is then empty.
 std::optional<Distribution> read_distribution(const YAML::Node& node, const std::string& path, Source& source);
 /// Reads a distribution of numbers only.
 std::optional<Distribution> read_number(const YAML::Node& node, const std::string& path, Source& source);
 
-std::string known_distributions();  ///< for advice
+std::string known_distributions();  ///< list of all kinds, for error messages
 
 std::string flow_text(const YAML::Node& node);
 

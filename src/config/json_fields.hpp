@@ -79,18 +79,18 @@ class JsonWriter {
   Json json = Json::object();
 };
 
-// Each throws a JsonFault at `path` if the value is of another type.
+// Each function throws a JsonFault at `path` if the value has another type.
 void read_json(const Json& json, const std::string& path, bool& value);
 void read_json(const Json& json, const std::string& path, int& value);
 void read_json(const Json& json, const std::string& path, std::uint64_t& value);
-void read_json(const Json& json, const std::string& path, double& value);  ///< null is NaN
+void read_json(const Json& json, const std::string& path, double& value);  ///< null is read as NaN
 void read_json(const Json& json, const std::string& path, std::string& value);
 void read_json(const Json& json, const std::string& path, Vec3& value);
-void read_json(const Json& json, const std::string& path, Pose& value);  ///< null is Pose::none()
+void read_json(const Json& json, const std::string& path, Pose& value);  ///< null is read as Pose::none()
 void read_json(const Json& json, const std::string& path, Twist& value);
-void read_json(const Json& json, const std::string& path, Word& value);  ///< unknown words as well
+void read_json(const Json& json, const std::string& path, Word& value);  ///< accepts any word, also an unknown one
 void read_json(const Json& json, const std::string& path, Hexadecimal& value);
-/// Throws a JsonFault unless it is a list of `size` items, or of any number.
+/// Throws a JsonFault unless `json` is a list. If `size` is given, the list must have this number of items.
 void expect_list(const Json& json, const std::string& path, std::optional<std::size_t> size = {});
 void expect_map(const Json& json, const std::string& path);
 
@@ -125,7 +125,7 @@ void read_json(const Json& json, const std::string& path, Enum& value) {
   throw JsonFault{path, "'" + text + "' is none of " + known};
 }
 
-/// Reads a value that is expressed by the presence of a section.
+/// Sets the members that say that a section is present in the file; for example, a section `drift` was measured.
 template <class Struct>
 void was_there(Struct&) {}
 inline void was_there(DriftReport& drift) {
@@ -134,7 +134,7 @@ inline void was_there(DriftReport& drift) {
 
 class JsonReader {
  public:
-  /// @param strict  true: every key that the writer writes must be there; false: only those without a default
+  /// @param strict  true: every key that the writer writes must exist; false: only keys without a default must exist
   JsonReader(const Json& json, std::string path, bool strict) : json_(json), path_(std::move(path)), strict_(strict) {
     expect_map(json, path_);
   }

@@ -11,7 +11,7 @@
 
 namespace bin_scenes::config {
 
-/// @tparam Columns  kind(key, value) and value(key, value): the texts of two columns; an optional field has no default
+/// @tparam Columns  has the functions kind(key, value) and value(key, value), which return the texts of two columns
 template <class Columns>
 class KeyCollector {
  public:

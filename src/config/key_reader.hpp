@@ -17,19 +17,19 @@ namespace bin_scenes::config {
 /// The origin of the values of a request, for error messages: a line of the file, or the option that overrides it.
 class Source {
  public:
-  /// @param overrides  path -> what the user wrote: "--set path", "--seconds"
+  /// @param overrides  maps the path of a key to the option that sets it, such as "--set path" or "--seconds"
   Source(std::string file, std::map<std::string, std::string> overrides)
       : file_(std::move(file)), overrides_(std::move(overrides)) {}
 
   void remember(const std::string& path, const YAML::Node& node);
-  /// "file:12", "--set path" or the like, or the place of the nearest enclosing key if `path` itself is not in the
-  /// file.
+  /// Returns where the value of a key comes from, such as "file:12" or "--set path". If the file does not contain
+  /// `path`, the place of the nearest enclosing key is returned.
   std::string where(std::string path) const;
   bool knows(const std::string& path) const { return lines_.count(path) != 0 || overrides_.count(path) != 0; }
 
-  /// From now on, errors of keys are added to `all`, and reading continues after them.
+  /// From now on, errors of keys are added to `all` instead of being thrown, and reading continues after them.
   void collect(std::vector<Error>* all) { all_ = all; }
-  /// Throws, unless errors are collected.
+  /// Throws the error, or adds it to the list of collect().
   void complain(const Error& error) {
     if (!all_) throw error;
     all_->push_back(error);
@@ -42,7 +42,7 @@ class Source {
   std::map<std::string, int> lines_;
 };
 
-/// A map that names a preset starts from its values: sensors and surfaces do.
+/// Fills a struct with the values of the preset that its map names. Only sensors, surfaces and grippers have presets.
 template <class Struct>
 void start_from_preset(const YAML::Node&, const std::string&, const Source&, Struct&) {}
 void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Sensor& sensor);
@@ -63,7 +63,7 @@ inline YAML::Node map_of(const YAML::Node& item, const Gripper&) {
 
 class KeyReader {
  public:
-  /// `path` of the map itself: "", "solver.bullet" or "parts[2]".
+  /// @param path  path of the map within the request, such as "", "solver.bullet" or "parts[2]"
   KeyReader(YAML::Node map, std::string path, Source& source);
 
   template <class Value>
@@ -113,7 +113,7 @@ class KeyReader {
   YAML::Node node(const Key& key) { return take(key); }
 
   bool has(const std::string& name) const { return found_.count(name) != 0; }
-  /// Complains of keys nobody took, naming the nearest known one.
+  /// Reports each key of the map that no call has read, and suggests the nearest known key.
   void finish() const;
 
  private:

@@ -8,9 +8,9 @@
 
 namespace bin_scenes::config {
 
-/// Absolute path of `written`: relative to `base` or else to one of rules.roots, absolute, or package://name/path. The
-/// file must exist, be readable and, symbolic links resolved, lie in one of rules.roots. Throws an input Error with
-/// `where`.
+/// Returns the absolute path of `written`, which is absolute, relative to `base` or to one of rules.roots, or
+/// package://name/path. The file must be readable and, after symbolic links are resolved, be inside one of rules.roots.
+/// Throws an input Error at `where` otherwise.
 std::string resolve_file(const std::string& written, const std::string& base, const PathRules& rules,
                          const std::string& where);
 

@@ -10,12 +10,12 @@
 
 namespace bin_scenes::config {
 
-/// Why they cannot; none: they can.
+/// Returns the reason why the output formats of `plan` cannot represent the scenes of `request`; empty if they can.
 std::optional<Error> misfit(const Plan& plan, const Request& request);
 
-/// Adds notes of what BOP's files leave out of the sensors' images, and where heaps may have more parts than
-/// bop_toolkit keeps estimates of an image, so that truth that is submitted as estimates scores less than 1, unless
-/// targets are limited. `parts`: of the key `amount`.
+/// Adds notes to the plan: which content of the images the BOP files cannot hold, and whether a heap may have more
+/// parts than bop_toolkit keeps estimates per image. In this case the true poses score below 1, unless the targets are
+/// limited. `parts` is the distribution of the number of parts, from the key `amount`.
 void note_losses(Plan& plan, const std::optional<Distribution>& parts);
 
 }  // namespace bin_scenes::config

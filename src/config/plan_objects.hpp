@@ -13,14 +13,14 @@
 namespace bin_scenes::config {
 
 struct PlanObjects {
-  YAML::Node symmetries;        ///< symmetries that the plan states, by model; may be undefined
-  std::vector<PlanObject> all;  ///< in order of their first appearance
-  std::string digests;          ///< digests of the model files, and of the files of bins and lamps
+  YAML::Node symmetries;        ///< symmetries that the plan states, with the model as key; may be undefined
+  std::vector<PlanObject> all;  ///< in the order in which requests first name them
+  std::string digests;          ///< digests of the files of models, bins and lamps
 
   using Complain = std::function<void(const std::string& problem, const std::string& remedy)>;
-  /// Notes what a request names. Symmetries that are none are complained of.
+  /// Adds the models that a request uses. Calls `complain` for symmetries that are not valid.
   void add(const Request& request, const Complain& complain);
-  /// Complains of symmetries of what is no model of the plan, once all are noted.
+  /// Calls `complain` for symmetries of models that the plan does not use. To be called after all add().
   void check_names(const Complain& complain) const;
 };
 

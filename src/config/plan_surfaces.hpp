@@ -9,12 +9,12 @@
 
 namespace bin_scenes::config {
 
-/// Whether a key of the request belongs to the surface of a part line.
+/// Returns whether a key of the request belongs to the surface of a part line.
 bool is_of_surface(const std::string& path);
 
-/// Splits every part line that draws a key of its surface, and is not fixed, into `kinds` lines that differ in these
-/// keys alone. Counts are divided evenly; of the amount, so are the shares, which set_counts() then draws from.
-/// @param drawn  the request with the draws of a kind made anew; kind 0 is `request` itself
+/// Splits each part line for whose surface a key is drawn into `kinds` lines that differ only in their surface, except
+/// for lines that are fixed or have poses. The count of a line, and its share of the amount, are divided evenly.
+/// @param drawn  returns the request with surfaces drawn again for this kind; kind 0 is `request` itself
 void split_surfaces(Request& request, Amount& amount, const std::vector<Draw>& draws, std::size_t kinds,
                     const std::function<Request(std::size_t kind)>& drawn);
 

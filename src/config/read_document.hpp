@@ -12,17 +12,17 @@
 
 namespace bin_scenes::config {
 
-/// @param root  is changed by the overrides
-/// @param file, base  for messages, and what relative paths start at
-/// @param all  takes the errors of all keys, with their lines; the request is then not usable. Without it, the first
-///             error of a key is thrown; errors of other kinds are always thrown.
+/// @param root  the parsed document, to which the overrides are applied
+/// @param file, base  name of the file for error messages, and the folder to which relative paths refer
+/// @param all  if given, the errors of all keys are added to it with their lines, and the result is not usable then.
+///             Otherwise the first error of a key is thrown. Errors of other kinds are always thrown.
 Request read_document(YAML::Node root, const std::string& file, const std::string& base,
                       const std::vector<Override>& overrides, const PathRules& rules,
                       std::vector<Error>* all = nullptr);
 
-/// For digests, which depend on the contents of the files of bins and lamps, but not on their paths.
+/// Returns the request without the paths of the files of bins and lamps, for digests that must not depend on them.
 Request without_places(Request request);
-/// Returns the digests of the pictures of lamps.
+/// Returns the digests of the image files of lamps.
 std::string digests_of_pictures(const Request& request);
 
 }  // namespace bin_scenes::config

@@ -7,16 +7,16 @@
 namespace bin_scenes::config {
 
 struct Entry {
-  std::string path;   ///< "parts[].count"; the path of a section or list itself for its heading
+  std::string path;   ///< path of the key, such as "parts[].count"
   std::string kind;   ///< the type of a value; "section" or "list" for a heading
-  std::string value;  ///< the default; "" if left out means none
+  std::string value;  ///< the default; "": there is none
   std::string unit, text;
 };
 
-/// Every key in the order of the table, made once.
+/// Returns all keys in the order of the tables. The list is made at the first call.
 const std::vector<Entry>& reference();
 
-/// Markdown: a table of the outermost keys, then a chapter for each section and list.
+/// Returns Markdown text: a table of the top-level keys, then a chapter for each section and list.
 /// @param defaults  whether the tables have a column of defaults
 std::string key_chapters(const std::vector<Entry>& entries, bool defaults);
 

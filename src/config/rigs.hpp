@@ -9,8 +9,8 @@
 
 namespace bin_scenes::config {
 
-/// Puts the sensors of the rig that a request names in the place of its key `rig`. Returns what the rig's file says of
-/// BOP's layout (keys of a plan's `bop`); not defined without a rig. Throws an input Error with the place of the key.
+/// Replaces the key `rig` of a request by the sensors of that rig. Returns the keys of a plan's `bop` that the file of
+/// the rig states; undefined if the request names no rig. Throws an input Error with the place of the key.
 YAML::Node put_rig(YAML::Node request, const std::function<std::string(const std::string& path)>& where);
 
 }  // namespace bin_scenes::config

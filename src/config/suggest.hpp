@@ -6,11 +6,11 @@
 
 namespace bin_scenes::config {
 
-/// Least number of letters put in, taken out, replaced or swapped with the next (Damerau 1964, optimal alignment).
+/// Returns the least number of letters to insert, delete, replace or swap with the next one (Damerau 1964).
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// Nearest of `known`, or "" if none is near enough to be meant (a third of the letters, at least 2, may differ,
-/// but not all of them).
+/// Returns the nearest word of `known`, or "" if none is near enough. A word is near enough if at most a third of its
+/// letters differ (but always 2 may differ), and not all of them.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace bin_scenes::config

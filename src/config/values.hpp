@@ -16,13 +16,13 @@
 
 namespace bin_scenes::config {
 
-/// What a reader expected instead of what it found; the caller knows file, line and key.
+/// Thrown if a value has the wrong type; states what was expected. The caller adds file, line and key.
 struct Mismatch {
   static constexpr std::size_t whole = static_cast<std::size_t>(-1);
 
-  std::string expected;
-  std::size_t item = whole;  ///< index of the item of a list that is wrong; `whole` if it is the list itself
-  std::string meant = "";    ///< the word that may have been meant
+  std::string expected;      ///< description of the expected value
+  std::size_t item = whole;  ///< index of the wrong item of a list; `whole` if the value itself is wrong
+  std::string meant = "";    ///< the known word that the user may have meant
 
   std::string index() const { return item == whole ? "" : "[" + std::to_string(item) + "]"; }
 };
@@ -40,7 +40,7 @@ void read_value(const YAML::Node& node, std::vector<double>& value);
 void read_value(const YAML::Node& node, std::vector<Pose>& value);
 void read_value(const YAML::Node& node, std::vector<Twist>& value);
 
-/// Shortest decimal that reads back as the same number, with '.' whatever the locale.
+/// Returns the shortest decimal that reads back as the same number; the decimal point is '.' in every locale.
 std::string text_of(double value);
 std::string text_of(bool value);
 std::string text_of(int value);

@@ -9,10 +9,10 @@
 
 namespace bin_scenes::config {
 
-/// The optical frame at `distance` from the target, image right = bin x and image up = bin y where tilt and roll are 0.
+/// Returns the pose of a camera's optical frame. With tilt = roll = 0, image right is bin x, and image up is bin y.
 Pose looking_at(const Vec3& target, double distance, double tilt, double turn, double roll);
 
-/// Puts a sensor for each of its views in a sensor's place. Throws an input Error with the place of the key.
+/// Replaces each sensor that has views by one sensor for each view. Throws an input Error with the place of the key.
 void spell_out_views(Request& request, const std::function<std::string(const std::string& path)>& where,
                      const std::function<bool(const std::string& path)>& given);
 

@@ -9,11 +9,11 @@
 
 namespace bin_scenes::config {
 
-constexpr std::size_t longest_text = std::size_t{256} << 20;  ///< bytes; a million given poses have half as many
+constexpr std::size_t longest_text = std::size_t{256} << 20;  ///< bytes; twice the text of a million given poses
 
-/// The one document of a text; a null node if it holds none. Throws an input Error with file and line: no YAML, several
-/// documents or something behind the first, longer than longest_text, aliases that stand for far more values than the
-/// text has. Throws Error(cancelled) while it reads.
+/// Parses a text that contains one document; an empty text gives a null node. Throws an input Error with file and line
+/// if the text is not YAML, has several documents, is longer than longest_text, or if its aliases expand to far more
+/// values than the text contains. Throws Error(cancelled) if the work of this thread is cancelled.
 YAML::Node load_yaml(const std::string& text, const std::string& file);
 
 }  // namespace bin_scenes::config

@@ -22,7 +22,7 @@
 
 namespace bin_scenes {
 
-/// Whether all bytes of a value are its own, so that a list of such values is copied at once.
+/// True if a type has no padding and no pointers, so that a list of such values is copied with one call.
 template <class T>
 struct IsPlain : std::bool_constant<(std::is_arithmetic_v<T> || std::is_enum_v<T>)&&!std::is_same_v<T, bool>> {};
 template <>
@@ -30,7 +30,7 @@ struct IsPlain<Vec3> : std::true_type {};
 template <class T, std::size_t size>
 struct IsPlain<std::array<T, size>> : IsPlain<T> {};
 
-/// The functions that reading and writing have in common.
+/// Base class of the writer and the reader: calls members() for structs and handles lists and texts.
 template <class Stream>
 class ByteStream {
  public:
@@ -38,7 +38,7 @@ class ByteStream {
   void operator()(Values&... values) {
     (value(values), ...);
   }
-  /// A list whose items are copied byte by byte.
+  /// Writes or reads a list whose items are copied byte by byte.
   template <class Item>
   void raw_list(std::vector<Item>& list) {
     self().size(list, sizeof(Item));
@@ -69,7 +69,7 @@ class ByteStream {
   }
 };
 
-/// @tparam Buffer  of bytes: std::string, or a vector of std::uint8_t
+/// @tparam Buffer  container of bytes: std::string, or std::vector<std::uint8_t>
 template <class Buffer>
 class WriterInto : public ByteStream<WriterInto<Buffer>> {
  public:
@@ -91,10 +91,10 @@ class WriterInto : public ByteStream<WriterInto<Buffer>> {
   Buffer bytes_;
 };
 
-/// After running over the end every read gives zeros, and ok() is false.
+/// Reads the bytes that WriterInto wrote. Once a read exceeds the end, every read returns zeros, and ok() is false.
 class ByteReader : public ByteStream<ByteReader> {
  public:
-  /// @param bytes  data() and size(); has to outlive this
+  /// @param bytes  has data() and size(), and must outlive this object
   template <class Bytes>
   explicit ByteReader(const Bytes& bytes)
       : at_(reinterpret_cast<const std::uint8_t*>(bytes.data())), left_(bytes.size()) {}
@@ -116,7 +116,7 @@ class ByteReader : public ByteStream<ByteReader> {
     ok_ = ok_ && byte <= 1;
     value = byte == 1;
   }
-  /// Resizes a list to the number that follows, which is never more than the remaining bytes can hold.
+  /// Reads the length of a list and resizes the list. If too few bytes remain for that many items, ok() becomes false.
   template <class List>
   void size(List& list, std::size_t item) {
     std::uint64_t n = 0;

@@ -13,7 +13,7 @@ namespace bin_scenes {
 /// Python module that holds this code. None of them needs to exist.
 std::vector<std::filesystem::path> data_places(const std::filesystem::path& path);
 /// Returns the first place that exists. Throws an environment Error that lists all places.
-/// @param what  names what is looked for, as in "shaders"
+/// @param what  name of the files for the error message, such as "shaders"
 std::filesystem::path first_place(const std::vector<std::filesystem::path>& places, const std::string& what,
                                   const std::string& remedy);
 

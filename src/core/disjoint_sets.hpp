@@ -10,13 +10,13 @@
 
 namespace bin_scenes {
 
-/// Union-find with path halving. A set is named by its lowest member, so that names do not depend on the order in which
-/// members were joined.
+/// Union-find with path halving. The root of a set is its lowest member, so that it does not depend on the order in
+/// which members were joined.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count = 0) { reset(count); }
 
-  /// Each of `count` things in a set of its own; memory is kept.
+  /// Starts again with `count` items, each in a set of its own. Allocated memory is kept.
   void reset(std::size_t count) {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0u);

@@ -1,4 +1,4 @@
-/// Text with numbers in it, as printf writes them: for messages that need a number of digits.
+/// Text with numbers, in the formats of printf, for messages in which numbers have a given number of digits.
 #pragma once
 
 #include <string>

@@ -11,9 +11,9 @@
 
 namespace bin_scenes {
 
-/// work(i) for every i below the count, in any order. Other tasks stay out of this thread meanwhile: it may hold the
-/// lock of a part, for which they might wait. Throws Error(cancelled) between two pieces once this thread's work is no
-/// longer wanted.
+/// Calls work(i) for each i < count, in any order. This thread runs no other tasks while it waits, because it may hold
+/// the lock of a part for which they would wait. Throws Error(cancelled) between two iterations if the work of this
+/// thread is cancelled.
 template <class Work>
 void in_parallel(std::size_t count, const Work& work) {
   const std::atomic<bool>* flag = cancel_flag();

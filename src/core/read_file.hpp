@@ -9,12 +9,12 @@
 
 namespace bin_scenes {
 
-/// @param most  bytes; a larger file is refused before it is read.
+/// Returns the contents of a file. A file of more than `most` bytes is refused before it is read.
 std::string read_file(const std::string& path, std::size_t most = SIZE_MAX);
 /// Returns the digest of the bytes of a file as 64 lower-case hexadecimal digits.
 std::string sha256_of_file(const std::string& path);
 
-/// A file that is open and regular.
+/// A regular file that is open for reading.
 class RegularFile {
  public:
   explicit RegularFile(const std::string& path);
@@ -22,9 +22,9 @@ class RegularFile {
   RegularFile(const RegularFile&) = delete;
   RegularFile& operator=(const RegularFile&) = delete;
 
-  /// The next bytes into `to`, at most `size`; 0 at the end.
+  /// Reads at most `size` of the next bytes into `to`. Returns the number of bytes; 0 at the end of the file.
   std::size_t read(char* to, std::size_t size);
-  std::size_t size() const { return size_; }  ///< bytes, when it was opened
+  std::size_t size() const { return size_; }  ///< size of the file (bytes) when it was opened
 
  private:
   std::string path_;

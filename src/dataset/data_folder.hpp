@@ -1,16 +1,16 @@
-/// The directory of a data set, and whose it is.
+/// The directory of a data set: the names of its files, and the lock that keeps out other processes.
 ///
 ///     DIR/dataset.json                     plan, version and size, written before anything else
 ///     DIR/plan.yaml                        the plan as it was read
 ///     DIR/scenes/scene_000007/             scene.json, request.yaml, files.json, images
-///     DIR/set_apart/scene_000007_attempt_0/  the same for what was not accepted
-///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes; `train`, or what the plan splits into
+///     DIR/set_apart/scene_000007_attempt_0/  the same for attempts that were not accepted
+///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes; `train`, or the splits of the plan
 ///     DIR/bop/*.json                       cameras, targets and description of all scenes together
-///     DIR/samples/000007/                  BOP's layout by images, until it is packed into
+///     DIR/samples/000007/                  BOP's layout by images, until these are packed into shards
 ///     DIR/shards/shard-000000.tar, ...
-///     DIR/index.sqlite                     state, times, digests: nothing that a scene does not state itself but times
+///     DIR/index.sqlite                     state, times, digests; only the times are stored nowhere else
 ///
-/// Everything but index.sqlite is the same, byte for byte, however it was made.
+/// Except for index.sqlite, all files are the same byte for byte, however the data set was made (shares, restarts).
 #pragma once
 
 #include "bin_scenes/config/plan.hpp"
@@ -32,17 +32,17 @@ struct DataSetFacts {
   std::string version;
   std::size_t heaps = 0, steps = 0, attempts = 0, sensors = 0;
   std::vector<std::string> formats;
-  double tolerance = 0.0;  ///< m, of visible pixels by measured depth; 0: they are those of the true image
+  double tolerance = 0.0;  ///< depth tolerance (m) of visible pixels; 0: the true image decides which are visible
   BopLayout bop;
-  bool run_lengths = false;      ///< bop: masks are run lengths in JSON files instead of PNG files
-  std::size_t most_targets = 0;  ///< bop: visible parts of an image that is a target; 0: any number
+  bool run_lengths = false;      ///< BOP: masks are run lengths in JSON files instead of PNG files
+  std::size_t most_targets = 0;  ///< BOP: images with more visible parts are no targets; 0: no limit
   std::size_t shard_size = 0;
-  std::vector<std::pair<std::string, double>> split;  ///< never empty
+  std::vector<std::pair<std::string, double>> split;  ///< name and share of each split; never empty
 
   std::size_t scenes() const { return heaps * (steps + 1); }
   bool wants(const std::string& format) const;
-  /// Fixed for a heap, however many there are: a data set that grows keeps its splits, and any part of it has them in
-  /// about their shares.
+  /// Returns the split of a heap. It depends only on the number of the heap: a data set that grows keeps its splits,
+  /// and any range of heaps is divided approximately according to the shares.
   std::string split_of(std::size_t heap) const;
   std::string split_of_scene(std::size_t scene) const { return split_of(scene / (steps + 1)); }
   bool operator==(const DataSetFacts& other) const;
@@ -59,23 +59,23 @@ struct DataFolder {
   std::filesystem::path shard(std::size_t shard) const;
 };
 
-/// Its folder in BOP's layout, as far as it is made.
+/// Returns the state of the folder `bop`: its layout, and what has been written to it so far.
 BopFolder bop_folder(const DataFolder& folder, const DataSetFacts& facts);
 
 DataSetFacts facts_of(const Plan& plan);
-/// Throws an input Error if DIR is no data set.
+/// Reads dataset.json. Throws an input Error if the folder is not a data set.
 DataSetFacts read_facts(const std::filesystem::path& root);
 
-/// Makes the folder with dataset.json and plan.yaml, or checks that it is of the same plan and version. Throws an input
-/// Error with advice for a folder of another plan or version, or of something else. A plan of more heaps is the same
-/// plan: the facts that are there say so, and put_plan() makes them new.
+/// Makes the folder with dataset.json and plan.yaml, or checks that an existing one has the same plan and version, and
+/// throws an input Error otherwise. Two plans that differ only in the number of heaps are the same plan. Returns the
+/// facts of the existing folder, which put_plan() replaces.
 DataSetFacts claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
 void put_plan(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
 
-/// Only one process at a time works in a folder. The lock is released when the process ends, in whatever way.
+/// Locks a folder, so that only one process at a time works in it. The end of the process releases the lock.
 class FolderLock {
  public:
-  explicit FolderLock(const std::filesystem::path& root);  ///< throws an environment Error if another one has it
+  explicit FolderLock(const std::filesystem::path& root);  ///< throws an environment Error if another process has it
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -84,15 +84,15 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Whether another process has that lock.
+/// Returns whether another process holds the lock of the folder.
 bool is_worked_in(const std::filesystem::path& root);
 
-/// Heaps of which there is a folder, whole or not: what a start has to look through, however many a plan asks for.
+/// Returns the heaps that have a folder, complete or not. It reads the directory, however many heaps the plan has.
 std::set<std::size_t> heaps_in(const DataFolder& folder, const DataSetFacts& facts);
 
-/// Where files and folders of the data set appear under their names.
+/// Returns all folders in which files and folders of the data set are renamed to their final names.
 std::vector<std::filesystem::path> folders_of(const DataFolder& folder);
-/// Removes what killed processes left half-written.
+/// Removes the incomplete files that killed processes left.
 void remove_leftovers(const DataFolder& folder);
 
 }  // namespace bin_scenes

@@ -18,22 +18,22 @@ namespace bin_scenes {
 
 class HeapMaker {
  public:
-  /// @param first  heap by which faults of the plan are distinguished from faults of a draw
+  /// @param first  number of the first heap; if it fails twice for the same reason, the fault is one of the plan
   HeapMaker(const Plan& plan, const DataFolder& folder, std::size_t first)
       : plan_(plan), folder_(folder), facts_(facts_of(plan)), first_(first) {}
 
-  /// Draws, pours and writes the heap's scenes. All of them appear, or none. An attempt that is not accepted is set
-  /// apart with request and reason, and the next one is made. Throws Error: of kind environment if the machine fails,
-  /// of kind input if another draw of the first heap fails for the same reason, which no draw seems to cure then.
+  /// Pours a heap and writes its scenes: all of them or none. An attempt that is not accepted is set apart with its
+  /// request and reasons, and another attempt follows. Throws an environment Error if the machine fails, and an input
+  /// Error if two attempts of the first heap fail for the same reason: the plan is at fault then.
   HeapRecord make(std::size_t heap);
 
  private:
   struct Attempt {
     std::optional<Request> request;
     std::optional<Generator::Result> result;  ///< the last scene that was made
-    std::vector<std::string> reasons;         ///< why it was not accepted; empty: its scenes wait in their folders
-    std::optional<Error> fault;               ///< an error that may be one of the plan
-    bool crowded = false;                     ///< the fault is that too many parts found no room
+    std::vector<std::string> reasons;  ///< why it was not accepted; empty: its scenes are ready in hidden folders
+    std::optional<Error> fault;        ///< an error that may be one of the plan
+    bool crowded = false;              ///< the fault is that too many parts were not poured
     std::size_t scenes = 0;
 
     bool fails_like(const Attempt& other) const;
@@ -52,17 +52,17 @@ class HeapMaker {
   DataSetFacts facts_;
   std::size_t first_;
   Generator generator_;
-  /// Digest of the file, and all that decides what is loaded from it: heaps must not depend on those made before.
+  /// Identifies what is loaded from a model file: its digest and all settings. Heaps must not depend on earlier heaps.
   using Model = std::tuple<std::string, std::optional<Unit>, double, std::optional<double>, std::optional<double>,
                            double, std::string>;
-  std::map<Model, double> volumes_;  ///< m3
+  std::map<Model, double> volumes_;  ///< volume of one part of each model (m3)
 };
 
 /// Returns the record of a heap from its files, if all of them exist. It serves data sets whose index is lost or
 /// incomplete.
 std::optional<HeapRecord> found_on_disk(const DataFolder& folder, const DataSetFacts& facts, std::size_t heap);
 
-/// The models of BOP's layouts, with symmetries.
+/// Writes the models in BOP's layout, with their symmetries.
 void write_models(const Plan& plan, const DataFolder& folder);
 
 }  // namespace bin_scenes

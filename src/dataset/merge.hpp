@@ -9,12 +9,12 @@
 namespace bin_scenes {
 
 struct Merged {
-  std::size_t scenes = 0, rejected = 0, missing = 0;  ///< missing: heaps that no share has
+  std::size_t scenes = 0, rejected = 0, missing = 0;  ///< missing: number of heaps that no share contains
 };
 
-/// Joins folders of one plan into `out`, which becomes the same, byte for byte, as the data set of one run. Files are
-/// linked if the file system allows it, and copied otherwise. What exists already is kept: a run that was killed at any
-/// time continues when it is repeated. Throws an input Error for folders of different plans or versions.
+/// Joins the shares of one plan into `out`, which equals the data set of one run byte for byte. Files are linked if the
+/// file system allows it, and copied otherwise. Existing files are kept, so that a run that was killed continues when
+/// it is repeated. Throws an input Error for folders of different plans or versions.
 Merged merge_datasets(const std::vector<std::string>& shares, const std::string& out, const std::atomic<bool>* stop);
 
 }  // namespace bin_scenes

@@ -26,22 +26,22 @@ struct RejectedRecord {
 
 struct HeapRecord {
   std::size_t heap = 0;
-  bool accepted = false;   ///< else every attempt was rejected
-  double wall_s = 0.0;     ///< negative: not known, since it was found on the disk
+  bool accepted = false;   ///< false: every attempt was rejected
+  double wall_s = 0.0;     ///< wall-clock time (s); negative: not known, because the heap was found on the disk
   double cpu_s = 0.0;      ///< processor time of all threads of the worker (s)
-  double memory_mb = 0.0;  ///< resident memory of the worker after the heap
-  std::map<std::string, double> stages_ms;
+  double memory_mb = 0.0;  ///< resident memory of the worker after the heap (MB)
+  std::map<std::string, double> stages_ms;  ///< wall-clock time of each stage (ms)
   std::vector<SceneRecord> scenes;
   std::vector<RejectedRecord> rejected;
 };
 
-/// Whether nothing is left that could be taken out: such a scene is the last of its heap.
+/// Returns whether no part is left that could be removed: such a scene is the last one of its heap.
 bool is_empty(const SceneFile& scene);
 
 nlohmann::json json_of(const HeapRecord& record);
 HeapRecord record_of(const nlohmann::json& json);
 
-/// Histograms and figures of a scene for the report.
+/// Returns the histograms and values of a scene that the report shows.
 nlohmann::json summary_of(const SceneFile& scene);
 
 }  // namespace bin_scenes

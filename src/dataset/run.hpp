@@ -11,28 +11,28 @@
 namespace bin_scenes {
 
 struct RunProgress {
-  /// Number of heaps of the share of this run, and of those that are done, including earlier runs.
+  /// Number of heaps in the share of this run, and the number of finished ones, including those of earlier runs.
   std::size_t heaps = 0, heaps_done = 0;
-  std::size_t accepted = 0, rejected = 0, failed = 0;  ///< scenes that are there; attempts set apart; heaps given up
-  std::size_t not_poured = 0, asked_for = 0;           ///< parts of the heaps that are there; known at the end
+  std::size_t accepted = 0, rejected = 0, failed = 0;  ///< scenes; attempts set apart; heaps without scenes
+  std::size_t not_poured = 0, asked_for = 0;           ///< parts of the finished heaps; known at the end
   double scenes_per_hour = 0.0;                        ///< rate of this run
-  double remaining_s = 0.0;
-  std::string phase;  ///< "scenes", "pack"
+  double remaining_s = 0.0;                            ///< estimated time until the end of the run (s)
+  std::string phase;                                   ///< "scenes" or "pack"
 };
 
 struct RunOptions {
-  std::size_t workers = 0;            ///< 0: as many as cores
-  std::size_t shard = 0, shards = 1;  ///< makes heaps whose number leaves `shard` when divided by `shards`
+  std::size_t workers = 0;            ///< number of worker processes; 0: one per core
+  std::size_t shard = 0, shards = 1;  ///< makes the heaps whose number modulo `shards` is `shard`
   std::function<void(const RunProgress&)> progress;
   std::function<void(const std::string&)> warn;
-  const std::atomic<bool>* stop = nullptr;  ///< when set, the run ends with Error(cancelled)
+  const std::atomic<bool>* stop = nullptr;  ///< if it becomes true, the run ends with Error(cancelled)
 };
 
-/// Only a whole data set is packed into shards; of one that is made in shares, merge_datasets() does it. The process
-/// must have no threads. Throws Error.
+/// Makes or completes a data set. Only a complete data set is packed into shards; if it is made in shares,
+/// merge_datasets() packs them. The process must have no other threads. Throws Error.
 RunProgress run_dataset(const Plan& plan, const std::string& directory, const RunOptions& options);
 
-/// Bytes that one scene of the plan takes on the disk, about: set by what finished scenes of up to 300 parts took.
+/// Returns the estimated size of one scene on the disk (bytes), from measured sizes of scenes of up to 300 parts.
 double estimate_scene_bytes(const Plan& plan);
 
 }  // namespace bin_scenes

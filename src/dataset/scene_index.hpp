@@ -16,9 +16,9 @@ struct sqlite3;
 namespace bin_scenes {
 
 struct IndexCounts {
-  std::size_t failed = 0;                     ///< heaps
-  std::size_t scenes = 0, rejected = 0;       ///< scenes that are there; attempts that were set apart
-  std::size_t not_poured = 0, asked_for = 0;  ///< parts of the first scene of each heap
+  std::size_t failed = 0;                     ///< heaps whose attempts were all rejected
+  std::size_t scenes = 0, rejected = 0;       ///< finished scenes; attempts that were set apart
+  std::size_t not_poured = 0, asked_for = 0;  ///< parts in the first scene of each heap
   double wall_s = 0.0;    ///< wall-clock time of the workers (s), over all heaps whose time is known
   double cpu_s = 0.0;     ///< processor time of the workers (s), over the same heaps
   std::size_t timed = 0;  ///< heaps whose time is known
@@ -26,7 +26,7 @@ struct IndexCounts {
 
 class SceneIndex {
  public:
-  /// Opens or makes it. Throws an environment Error; an input Error for a file that is damaged.
+  /// Opens or creates the index. Throws an environment Error; throws an input Error if the file is damaged.
   explicit SceneIndex(const std::filesystem::path& path, bool only_read = false);
   ~SceneIndex();
   SceneIndex(const SceneIndex&) = delete;
@@ -35,25 +35,25 @@ class SceneIndex {
   /// Stores a record in one transaction, and replaces an earlier one of the same heap.
   void put(const HeapRecord& record);
   void forget(std::size_t heap);
-  std::set<std::size_t> heaps() const;  ///< the heaps that are done or have failed
+  std::set<std::size_t> heaps() const;  ///< heaps that are finished or have failed
   IndexCounts counts() const;
-  /// Adds the heaps whose number divided by `shards` leaves the remainder `shard` to those that this folder must hold.
+  /// Adds a share to those that this folder must contain: the heaps whose number modulo `shards` is `shard`.
   void add_share(std::size_t shard, std::size_t shards);
   std::set<std::pair<std::size_t, std::size_t>> shares() const;
-  std::map<std::string, double> stages_ms() const;  ///< summed over all heaps
+  std::map<std::string, double> stages_ms() const;  ///< wall-clock time by stage (ms), summed over all heaps
 
   struct Row {
     std::size_t scene, heap;
     std::string path, sha256;
-    double wall_s;  ///< of its heap
+    double wall_s;  ///< wall-clock time of its heap (s)
     nlohmann::json summary;
   };
-  void each_scene(const std::function<void(const Row&)>& visit) const;  ///< in order
+  void each_scene(const std::function<void(const Row&)>& visit) const;  ///< in the order of scenes
   struct Rejected {
     std::size_t heap, attempt;
     std::string path, reasons;
   };
-  std::vector<Rejected> rejected() const;  ///< in order
+  std::vector<Rejected> rejected() const;  ///< in the order of heaps
   HeapRecord record(std::size_t heap) const;
 
   /// Returns the result rows of a statement as text.

@@ -1,4 +1,4 @@
-/// The directory of a job: one folder a scene, which appears under its name only when it is whole.
+/// The directory of a job: one folder for each scene, which gets its final name only when it is complete.
 ///
 ///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>.ply, <sensor>*.png, scene.bag,
 ///                                  scene.mcap, grasps.json
@@ -6,8 +6,8 @@
 ///     DIR/set_apart/...            the same for scenes that were not accepted
 ///     each of these folders: files.json, the size and SHA-256 of every other file in it
 ///
-/// A job is resumable: a folder is done, and is not made again, whose scene.json carries the hash of the request and
-/// whose files all have the sizes that files.json states.
+/// A job can be resumed: a scene is not made again if its scene.json contains the hash of the request, and if all of
+/// its files have the sizes that files.json states.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"
@@ -30,14 +30,14 @@ class SceneStore {
   /// Checks the formats, and that `directory` can be written. Removes what killed runs left incomplete. Makes no scene
   /// yet.
   /// @param mcap    version of the ROS messages in MCAP files
-  /// @param verify  whether existing scenes count only if the digests of their files agree
+  /// @param verify  whether an existing scene counts only if its files also have the stated digests
   SceneStore(const std::string& directory, const std::vector<std::string>& formats,
              McapProfile mcap = McapProfile::ros1, bool verify = false);
 
-  bool needs_sensors() const;  ///< whether some format contains nothing but what a sensor sees
+  bool needs_sensors() const;  ///< whether some format contains only data of sensors
   bool needs_grasps() const;
   bool needs_gray() const;
-  bool needs_images() const;  ///< some format holds what sensors see, if there are any
+  bool needs_images() const;  ///< whether some format contains images of sensors
 
   /// Returns the indices of the request's scenes that have a folder. It reads the directory, because the request may
   /// ask for far more scenes.
@@ -48,11 +48,11 @@ class SceneStore {
   /// Returns the reasons of an existing scene that was set apart.
   std::vector<std::string> reasons(std::size_t index) const;
 
-  /// Writes all folders of the scene under hidden names, in any thread and for several scenes at once, and lets its
-  /// images go.
+  /// Writes all folders of the scene under hidden names, then frees the images of `result`. May be called in any
+  /// thread, for several scenes at the same time.
   void prepare(Generator::Result& result, const Generator& generator);
-  /// Gives the folders their names: all of them or none. What an earlier scene of this index left on the other side
-  /// goes.
+  /// Renames the folders of a scene to their final names: all of them or none. An older scene of this index is removed
+  /// if it is on the other side (accepted or set apart).
   void commit(const Generator::Result& result, const Request& request, const Generator& generator);
 
  private:
@@ -69,7 +69,7 @@ class SceneStore {
   bool verify_;
   std::mutex mutex_;
   std::map<std::size_t, std::shared_ptr<WholeFolders>> prepared_;  ///< by index of the scene; under mutex_
-  std::set<bool> models_written_;                                  ///< BOP models of accepted and set-apart scenes
+  std::set<bool> models_written_;  ///< whether BOP models were written: accepted, set apart
 };
 
 }  // namespace bin_scenes

@@ -15,13 +15,13 @@
 
 namespace bin_scenes {
 
-/// Scenes of a shard: a fixed range, so that a shard does not depend on what others hold. Where heaps have failed, it
-/// has fewer images.
+/// Returns how many scenes a shard covers. The number is fixed, so that a shard does not depend on other shards. Where
+/// heaps have failed, a shard has fewer images.
 std::size_t scenes_per_shard(const DataSetFacts& facts);
 std::size_t shard_of(const DataSetFacts& facts, std::size_t scene);
 std::size_t shard_count(const DataSetFacts& facts);
 
-/// The offset index beside a shard. Throws an input Error if it is missing or damaged.
+/// Returns the offset index that is stored next to a shard. Throws an input Error if it is missing or damaged.
 nlohmann::ordered_json offsets_of(const DataFolder& folder, std::size_t shard);
 
 /// Packs samples into shards and removes the samples. Beside each shard is an offset index (shard-000000.json: key ->
@@ -29,9 +29,9 @@ nlohmann::ordered_json offsets_of(const DataFolder& folder, std::size_t shard);
 /// are kept: a run that was killed at any time continues from there. Throws Error.
 class ShardPacker {
  public:
-  /// @param done  heaps that are made, or given up
+  /// @param done  heaps that are finished or have failed
   ShardPacker(const DataFolder& folder, const DataSetFacts& facts, std::set<std::size_t> done);
-  /// Packs the shards that are whole with it: they can be read while the others are made.
+  /// States that a heap is finished. Packs each shard that is complete with it, so that it can be read already.
   void add(std::size_t heap);
   void pack_all();
 
@@ -50,12 +50,12 @@ class ShardPacker {
 /// Turns the last shard back into samples if it has room for more scenes, as a data set that grows needs it.
 void unpack_last_shard(const DataFolder& folder, const DataSetFacts& facts);
 
-/// Writes files as a tar whose bytes depend on names and contents alone; returns where each file's contents begin.
+/// Writes a tar file whose bytes depend only on names and contents. Returns offset and size of each file's contents.
 std::vector<std::pair<std::size_t, std::size_t>> write_tar(
     const std::string& path, const std::vector<std::pair<std::string, std::filesystem::path>>& files);
 
 using ShardImages = std::map<std::string, std::map<std::string, std::string>>;  ///< key -> file -> contents
-/// Everything in a shard; none if it is cut off or no tar. `doubled` is set if a file is there twice.
+/// Reads all files of a shard; empty if it is truncated or not a tar file. `doubled`: whether a file occurs twice.
 std::optional<ShardImages> read_tar(const std::string& path, bool& doubled);
 
 }  // namespace bin_scenes

@@ -11,15 +11,15 @@
 
 namespace bin_scenes {
 
-/// Every invariant by name, with what it demands: for `dataset verify --list` and the documentation.
+/// Returns all invariants by name with a description, for `dataset verify --list` and the documentation.
 const std::vector<std::pair<const char*, const char*>>& invariants();
 
-/// Reads every file of the data set.
+/// Checks every file of the data set.
 void verify_dataset(const DataFolder& folder, Findings& findings);
 
-// The parts of it.
+// The steps of verify_dataset().
 void verify_index(const DataFolder& folder, const DataSetFacts& facts, Findings& findings);
-/// One folder against its files.json.
+/// Compares one folder with its files.json.
 void verify_files(const std::filesystem::path& folder, Findings& findings);
 void verify_scene(const DataFolder& folder, const DataSetFacts& facts, std::size_t scene, Findings& findings);
 void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings& findings);

@@ -17,27 +17,27 @@
 
 namespace bin_scenes {
 
-/// Throws Error for formats that are unknown, or that this build lacks. `where`: the option that names them.
+/// Throws an Error for formats that are unknown or that this build lacks. `where`: name of the option, for the message.
 void check_formats(const std::set<std::string>& formats, const std::string& where);
-/// Before hours of simulation, not after them: the nearest directory that exists has to take new files.
+/// Checks that files can be made in the directory, or in its nearest existing parent; to be called before simulating.
 void check_writable(const std::filesystem::path& directory);
 
-/// scene.json of a folder; none if it is missing or damaged.
+/// Reads scene.json of a folder; empty if it is missing or damaged.
 std::optional<SceneFile> scene_in(const std::filesystem::path& folder);
 
-/// Writes down what is in a folder in files.json, itself left out: sizes and digests.
+/// Writes files.json: the sizes and digests of all other files of the folder.
 void write_manifest(const std::string& folder);
 bool has_manifest(const std::string& folder);
-/// Whether everything that was written into a folder is there: each file with its size, and with its digest on request.
-/// A folder without the list of its files is of a run that was killed, or of an earlier version.
+/// Returns whether the folder has all files of its files.json with their sizes and, if `digests`, their digests. A
+/// folder without files.json comes from a run that was killed, or from an earlier version.
 bool whole(const std::filesystem::path& folder, bool digests);
 
-/// scene.json, and the files of the formats that are named (output/output_format.hpp), but for BOP's folder.
+/// Writes scene.json and the files of all `formats` (output/output_format.hpp), except for the folder of BOP.
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
                        const LoadedRequest& loaded, McapProfile mcap = McapProfile::ros1);
 
-/// Folders that are written under hidden names and take their own only when all of them are whole. Without commit()
-/// nothing of them is left, nor of the directories above them that were made for them.
+/// Folders that are written under hidden names. commit() renames them when all of them are complete. Without commit(),
+/// they are removed, with the parent directories that were made for them.
 class WholeFolders {
  public:
   WholeFolders() = default;
@@ -45,7 +45,7 @@ class WholeFolders {
   WholeFolders& operator=(const WholeFolders&) = delete;
   ~WholeFolders();
 
-  /// `fill` writes into the folder it is given. Its errors name the folder that it was to become.
+  /// Calls `fill` with the hidden folder that becomes `target`. Errors of `fill` name `target` instead of that folder.
   void write(const std::filesystem::path& target, const std::function<void(const std::string& hidden)>& fill);
   /// Renames the folders to their final names, in the order in which they were written.
   void commit();
@@ -54,7 +54,7 @@ class WholeFolders {
   void make_parents(const std::filesystem::path& target);
 
   std::vector<std::unique_ptr<Temporary>> folders_;
-  std::vector<std::filesystem::path> made_;  ///< outermost first
+  std::vector<std::filesystem::path> made_;  ///< parent directories that were made, outermost first
 };
 
 }  // namespace bin_scenes

@@ -20,15 +20,15 @@ namespace bin_scenes {
 
 class Workers {
  public:
-  /// `work` runs in the workers. Its Error becomes {"error": what, "kind": code}.
-  /// `warn` hears of each worker that died.
+  /// @param work  runs in the worker processes; if it throws an Error, the answer is {"error": what, "kind": code}
+  /// @param warn  is called with a message for each worker that died
   Workers(std::size_t count, std::function<nlohmann::json(std::size_t heap)> work,
           std::function<void(const std::string&)> warn);
-  ~Workers();  ///< kills them
+  ~Workers();  ///< kills the workers
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// Has every heap that `next` gives made by some worker, and hands each answer to `done`. Returns early once `stop`
+  /// Distributes the heaps that `next` returns to the workers, and calls `done` with each answer. Ends early if `stop`
   /// is set. Throws an environment Error if workers keep dying on one heap. The parent must have no threads.
   void run(const std::function<std::optional<std::size_t>()>& next,
            const std::function<void(const nlohmann::json&)>& done, const std::atomic<bool>& stop,
@@ -39,14 +39,14 @@ class Workers {
     pid_t pid = -1;
     int socket = -1;
     std::optional<std::size_t> heap;
-    std::size_t deaths = 0;  ///< on that heap
-    std::string line;        ///< the part of an answer that has arrived
+    std::size_t deaths = 0;  ///< how often workers died on this heap
+    std::string line;        ///< part of an answer that has been received so far
   };
 
   void start(Worker& worker);
   void give(Worker& worker, std::size_t heap);
   void hear(Worker& worker, const std::function<void(const nlohmann::json&)>& done);
-  static int end(Worker& worker);  ///< status of waitpid(); 0 if there was none
+  static int end(Worker& worker);  ///< kills it; returns its status of waitpid(), 0 if it did not run
 
   std::function<nlohmann::json(std::size_t)> work_;
   std::function<void(const std::string&)> warn_;

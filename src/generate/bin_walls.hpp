@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// Refuses a bin whose floor is a sheet of triangles without thickness: a distance field knows no inside of it, and
-/// parts fall through. Bullet collides with the triangles themselves and needs none.
+/// Throws an Error if the floor of a bin is a sheet of triangles without thickness: its distance field has no inside,
+/// and parts would fall through. The solver bullet accepts it, because it collides with the triangles themselves.
 void check_bin_walls(const PartModel& bin, const Request& request);
 
 }  // namespace bin_scenes

@@ -16,8 +16,8 @@
 
 namespace bin_scenes {
 
-/// Parts of scenes that may wait to be finished. On one core nobody does it beside the thread that pours: it then does
-/// it itself.
+/// Largest number of parts in scenes that wait to be finished. Above it, the pouring thread finishes scenes itself. On
+/// one core, no other thread would do it.
 constexpr std::size_t most_parts_waiting = 100'000;
 
 /// Returns how many poured scenes may wait, if the images of `at_once` scenes fit into memory: enough for all cores,
@@ -27,8 +27,8 @@ std::size_t scenes_waiting(std::size_t at_once);
 class Finishing {
  public:
   using Result = Generator::Result;
-  /// `finish` is called in any thread and for up to `at_once` scenes at the same time, whose images must fit into
-  /// memory together. `hand_on` is called in the thread that uses this class.
+  /// `finish` is called in any thread, for up to `at_once` scenes at the same time; the images of so many scenes must
+  /// fit into memory. `hand_on` is called in the thread that uses this class, in the order of scenes.
   Finishing(std::function<void(Result&)> finish, std::function<void(Result&&)> hand_on, std::size_t at_once)
       : finish_(std::move(finish)),
         hand_on_(std::move(hand_on)),
@@ -38,11 +38,11 @@ class Finishing {
   Finishing(const Finishing&) = delete;
   Finishing& operator=(const Finishing&) = delete;
 
-  /// Adds a poured scene. Places count from 0, and each is added once. If pouring is faster than finishing, or than the
-  /// caller, it waits and hands scenes on, because memory holds the images of a few scenes but not of all.
+  /// Adds a poured scene. Places count from 0, and each place is added once. If too many scenes wait, the call finishes
+  /// scenes and hands them on before it returns, because the images of all scenes would not fit into memory.
   void add(std::size_t place, Scene&& scene);
-  void hand_on_finished();  ///< hands on the scenes that are finished and next in order; never waits
-  void wait();              ///< for all, and hands on each as soon as it is finished; throws what `finish` threw
+  void hand_on_finished();  ///< hands on finished scenes that are next in order; never waits
+  void wait();              ///< hands on all scenes, each when it is finished; throws what `finish` threw
 
  private:
   struct Entry {
@@ -50,18 +50,18 @@ class Finishing {
     std::exception_ptr failed;
     std::atomic<bool> begun{false}, finished{false};
   };
-  void finish(Entry& entry);  ///< unless another thread does it
-  void wait_for_first();      ///< whatever its turn; finishes it in this thread if no other has begun
+  void finish(Entry& entry);  ///< does nothing if another thread finishes the entry
+  void wait_for_first();      ///< waits for the first scene, or finishes it in this thread
 
   std::function<void(Result&)> finish_;
   std::function<void(Result&&)> hand_on_;
-  std::map<std::size_t, std::shared_ptr<Entry>> entries_;  ///< by place in the order of scenes
-  std::size_t next_ = 0;                                   ///< place whose turn it is
-  std::atomic<std::size_t> waiting_{0};                    ///< parts of scenes not finished yet
+  std::map<std::size_t, std::shared_ptr<Entry>> entries_;  ///< key: place of the scene in the order
+  std::size_t next_ = 0;                                   ///< place of the scene that is handed on next
+  std::atomic<std::size_t> waiting_{0};                    ///< number of parts in scenes that are not finished
   std::mutex mutex_;
   std::condition_variable freed_;
-  std::size_t free_;                ///< scenes that may be begun now
-  const std::size_t most_waiting_;  ///< scenes that wait to be finished or handed on
+  std::size_t free_;                ///< number of further scenes that may be begun now
+  const std::size_t most_waiting_;  ///< largest number of scenes that wait to be finished or handed on
   tbb::task_group tasks_;
 };
 

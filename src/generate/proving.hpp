@@ -11,16 +11,16 @@
 
 namespace bin_scenes {
 
-/// Places in `grasps` of up to `count` free ones, the best first, at even ranks from the best to the worst.
+/// Returns the indices of up to `count` free grasps at even ranks of score; with `all`, also blocked or slipping ones.
 std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasps, std::size_t count, bool all = false);
 
-/// Fills in SceneGrasp::proof of those that the request asks for.
+/// Simulates the grasps that the request selects, and sets their SceneGrasp::proof.
 void prove_grasps(SceneGrasps& grasps, const Scene& scene, const LoadedRequest& loaded, Prover& prover);
 
-/// The prover of the heap that was asked about last.
+/// Keeps the prover of the heap for which it was last called.
 class HeapProver {
  public:
-  /// @param solver  the heap's, by which it is known
+  /// @param solver  solver of the heap; the prover is made again if it is another solver
   Prover& of(const LoadedRequest& loaded, const std::shared_ptr<Solver>& solver);
 
  private:

@@ -10,13 +10,13 @@
 namespace bin_scenes::gl {
 
 struct ShaderSource {
-  std::string text;                ///< #version, defines, includes resolved, #line marks
-  std::vector<std::string> files;  ///< files, by the source number of #line
+  std::string text;                ///< #version line, definitions, code with included files and #line directives
+  std::vector<std::string> files;  ///< names of the files; index: source number in #line
 };
 
-/// With BIN_SCENES_SHUFFLE=1 in the environment, for tests: invocations and groups have other numbers than they would,
-/// so that what one invocation does before its neighbour is done after it. A pass that lacks a barrier then gives other
-/// bits.
+/// Reads a shader file with its includes and puts `defines` before it. If the environment has BIN_SCENES_SHUFFLE=1 (for
+/// tests), invocations and groups are numbered in another order. A pass that lacks a barrier then gives different
+/// results.
 ShaderSource read_shader(const std::string& file, const Defines& defines);
 
 /// Replaces "<source number>:<line>" (Mesa) and "<source number>(<line>)" (NVIDIA) by "<file>:<line>".

@@ -9,12 +9,12 @@
 
 namespace bin_scenes {
 
-/// Unit directions in the model frame: axes of rotational symmetry, then normals of large flat faces, then long sharp
-/// straight edges, then the principal axes of inertia.
+/// Returns unit directions in the model frame: axes of rotational symmetry, then normals of large flat faces, then long
+/// sharp straight edges, then the principal axes of inertia.
 std::vector<Vec3> shape_directions(const PartModel& part, const Symmetries& symmetries);
 
-/// A unit direction perpendicular to `axis`: the projection of the first of the directions that is perpendicular to it
-/// within three degrees or, if there is none, of the direction that is the nearest to perpendicular.
+/// Returns a unit direction perpendicular to `axis`: the projection of the first of the directions that is
+/// perpendicular to it within three degrees or, if there is none, of the direction that is nearest to perpendicular.
 Vec3 direction_across(const std::vector<Vec3>& directions, const Vec3& axis);
 
 }  // namespace bin_scenes

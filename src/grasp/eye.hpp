@@ -1,5 +1,5 @@
-/// Visibility of the contacts of grasps in one image. For each contact, it determines what share the camera of the
-/// image sees and has measured, by the labels and the depth of the image. The image itself is not changed.
+/// Visibility of the contacts of grasps in one image. By the labels and the depth of the image, it determines which
+/// share of the contact points of a grasp the camera sees, and which share it has measured.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"
@@ -10,14 +10,14 @@ class Eye {
  public:
   /// The image must outlive this object.
   explicit Eye(const RangeImage& image);
-  /// Appends to SceneGrasp::visible and measured.
+  /// Appends the shares of the contacts of `grasp` that the camera sees, and has measured, to `visible` and `measured`.
   void look(const Grasp& grasp, SceneGrasp& placed) const;
 
  private:
   const RangeImage& image_;
   Lens lens_;
   Pose into_camera_;
-  bool measures_;  ///< depth and labels are images of the camera, not profiles
+  bool measures_;  ///< whether depth and labels are images of the camera; false for profiles of a laser line
 };
 
 }  // namespace bin_scenes

@@ -8,23 +8,23 @@ namespace bin_scenes {
 
 /// The forces that a grasp has to hold, bin frame.
 struct Burden {
-  double pull;  ///< N against `up`: weight, inertia, load and friction of the neighbours
-  Vec3 weight;  ///< N: weight and inertia of the part alone
-  Vec3 center;  ///< m: centre of mass
-  Vec3 up;      ///< unit: direction of the lift
+  double pull;  ///< N, force to overcome along `up`: weight, inertia, load and friction of the neighbours
+  Vec3 weight;  ///< N: weight and inertial force of the part alone
+  Vec3 center;  ///< m: centre of mass of the part
+  Vec3 up;      ///< unit vector: direction of the lift
 };
 
 struct Hold {
-  double safety = 0.0;    ///< factor by which the burden could grow before the part slips or turns; below 1: it does
-  double sliding = 0.0;   ///< factor by which it could grow before the part slides out, even if it turns before
-  double friction = 0.0;  ///< smallest coefficient that suffices; infinite: none does
-  double moment = 0.0;    ///< moment of the weight / moment that the grasp can hold; 1 and more: the part turns
+  double safety = 0.0;    ///< factor by which the burden can grow until the part slips or turns; below 1: it does
+  double sliding = 0.0;   ///< factor by which the burden can grow until the part slides out; turning is disregarded
+  double friction = 0.0;  ///< smallest friction coefficient with which the grasp holds; infinite: it never holds
+  double moment = 0.0;    ///< moment of the weight / moment that the grasp can hold; at 1 and more, the part turns
 };
 
-/// @param pose  of the gripper in the bin frame
+/// Computes how safely a grasp holds. @param pose  pose of the gripper in the bin frame
 Hold hold_of(const Grasp& grasp, const Pose& pose, const Gripper& gripper, double friction, const Burden& burden);
 
-/// Suction: force of the vacuum (N) after the loss by the gap under the lip.
+/// Returns the force (N) of the vacuum of a cup, reduced by leakage through the gap under its lip.
 double vacuum_of(const Grasp& grasp, const Gripper& gripper);
 
 }  // namespace bin_scenes

@@ -13,23 +13,23 @@ class Overlaps {
  public:
   explicit Overlaps(const PlacedParts& placed);
 
-  /// Area (m2) over which a part is below another one; both are indices into PlacedParts::all().
+  /// Returns the area (m2) over which a part is below another one; arguments are indices into PlacedParts::all().
   double area(std::size_t part, std::size_t above) const;
-  /// Area over which it is below several parts, and the shortest horizontal move found after which it is below none.
+  /// Returns the area over which a part is below several others, and the shortest horizontal move that uncovers it.
   PartPick::Overlap of(std::size_t part, const std::vector<std::size_t>& above) const;
 
  private:
-  /// Lowest and highest point of a part's surface in each column of its bounding rectangle.
+  /// Lowest and highest point of the surface of a part in each grid column of its bounding rectangle.
   struct Columns {
     int x = 0, y = 0, width = 0, height = 0;
-    std::vector<float> low, high;  ///< m upwards; low > high: the part is not in this column
+    std::vector<float> low, high;  ///< heights along up_ (m); low > high: the part is not in this column
   };
   Columns columns_of(const PlacedPart& part) const;
   std::size_t covered(const Columns& part, int dx, int dy, const Columns& above, std::size_t enough) const;
 
   Vec3 up_, across_x_, across_y_;
-  double cell_ = 0.0;      ///< m
-  float touching_ = 0.0f;  ///< m: a part that is higher by less only touches
+  double cell_ = 0.0;      ///< m, edge of a grid column
+  float touching_ = 0.0f;  ///< m: a part that is above another by less than this only touches it
   std::vector<Columns> all_;
 };
 

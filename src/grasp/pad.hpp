@@ -13,44 +13,44 @@ namespace bin_scenes {
 
 /// The frame of a pad. The pad moves along -out; u and v span its rectangle.
 struct Pad {
-  Vec3 center;  ///< on the surface that it shall touch, or above it
-  Vec3 u, v, out;
-  double half_u, half_v;  ///< m
-  double start;           ///< m: height over the centre at which it starts to move
-  double give;            ///< m: depth below the highest point down to which the surface is in contact
-  double friction;        ///< coefficient; facets outside of its friction cone do not count
+  Vec3 center;            ///< point on the surface that the pad shall touch, or above it (m)
+  Vec3 u, v, out;         ///< unit axes: u and v along the sides, out away from the part
+  double half_u, half_v;  ///< m: half lengths of the sides along u and v
+  double start;           ///< m: height above `center` at which the pad starts to move
+  double give;            ///< m: depth below the highest point of the surface down to which it is in contact
+  double friction;        ///< friction coefficient; facets outside of the friction cone do not count
 };
 
 struct PadContact {
   double share = 0.0;                     ///< area in contact / area of the pad
-  double radius = 0.0;                    ///< m: mean distance of the area of contact from its centroid
-  double friction = 0.0;                  ///< tangent of the angle between mean normal and Pad::out
+  double radius = 0.0;                    ///< m: mean distance of the contact area from its centroid
+  double friction = 0.0;                  ///< tangent of the angle between the mean normal of the contact and Pad::out
   Eigen::Vector2d centroid, lower, upper; /**< of the area of contact, along u and v from Pad::center (m) */
-  std::vector<Eigen::Vector2d> points;    ///< those of an even grid over the pad that are in contact; of a contact
-                                          ///< smaller than the grid, centres of some facets
+  std::vector<Eigen::Vector2d> points;    ///< points of an even grid over the pad that are in contact; if the contact
+                                          ///< is smaller than the grid, centres of some facets
 };
 
 /// A triangle of the part, clipped to the rectangle of a pad.
 struct PadFacet {
   struct Polygon {
     static constexpr int most = 10;  ///< a triangle that is clipped at five planes has at most eight corners
-    std::array<Vec3, most> points;   ///< m along u, v and out from Pad::center
+    std::array<Vec3, most> points;   ///< corners: coordinates (m) along u, v and out from Pad::center
     int count = 0;
     void add(const Vec3& point) { points[static_cast<std::size_t>(count++)] = point; }
     double highest() const;
   };
   Polygon polygon;
-  Vec3 normal;  ///< unit; along u, v and out
+  Vec3 normal;  ///< unit outward normal; components along u, v and out
 };
 
-/// A pad where it rests on a part. Whether it can get there may be asked before the contact is measured, which takes
+/// A pad at the position where it rests on a part. The position may be used before the contact is measured, which takes
 /// most of the time.
 class PressedPad {
  public:
-  /// None if nothing is below the pad, or if something obstructs it before it starts. The mesh must outlive the result.
+  /// Presses a pad on a mesh that outlives the result. None if no surface is below it, or if one obstructs its start.
   static std::optional<PressedPad> on(const MeshQuery& mesh, const Pad& pad);
-  double height() const { return height_; }  ///< m of the pad over Pad::center
-  /// None if all facets below the pad are too steep.
+  double height() const { return height_; }  ///< returns the height (m) of the resting pad above Pad::center
+  /// Measures the contact; returns none if all facets below the pad are too steep.
   std::optional<PadContact> contact() const;
 
  private:
@@ -61,7 +61,7 @@ class PressedPad {
   double height_;
 };
 
-/// Integral over a plane polygon, counter-clockwise, of the distance from a point (m3).
+/// Returns the integral of the distance from a point over the area of a counter-clockwise polygon (m3).
 double distance_integral(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& from);
 
 }  // namespace bin_scenes

@@ -9,11 +9,11 @@
 namespace bin_scenes {
 
 struct Passage {
-  double distance;       ///< along the direction, which has unit length
-  std::size_t triangle;  ///< of the mesh
+  double distance;       ///< m along the ray, whose direction has unit length
+  std::size_t triangle;  ///< index of the triangle in the mesh
 };
 
-/// All passages at a distance of more than `from` (m) from the origin, ordered by distance.
+/// Returns all points where the ray crosses the surface at more than `from` (m) from its origin, ordered by distance.
 std::vector<Passage> passages(const MeshQuery& mesh, const Vec3& origin, const Vec3& direction, double from);
 
 }  // namespace bin_scenes

@@ -9,16 +9,16 @@
 
 namespace bin_scenes {
 
-/// The surroundings of one part, for all grasps by one gripper.
+/// Tests all grasps of one part by one gripper for collisions with the surroundings of the part.
 class Reach {
  public:
-  /// @param lift  unit: direction in which the part is lifted
+  /// @param lift  unit direction in which the part is lifted, bin frame
   Reach(const PlacedParts& placed, const PlacedPart& part, const Gripper& gripper, const Vec3& lift);
 
-  /// Whether the gripper, grown by its clearance, collides with other parts or with the bin while it approaches, closes
-  /// or is lifted. Sets SceneGrasp::obstacle and other.
+  /// Returns whether the gripper, grown by its clearance, collides with other parts or the bin while it approaches,
+  /// closes or is lifted. Sets SceneGrasp::obstacle and other if it does.
   bool meets(SceneGrasp& grasp) const;
-  /// The column `clearance` of a free grasp: 0, or 0.5 if twice the clearance is free, or 1 if four times is.
+  /// Returns the column `clearance` of a free grasp: 0, or 0.5 if twice the clearance is free, or 1 if four times is.
   double room(const SceneGrasp& grasp) const;
 
  private:
@@ -29,7 +29,7 @@ class Reach {
   const PlacedParts& placed_;
   const Gripper& gripper_;
   const Vec3 lift_;
-  std::vector<std::size_t> order_;  ///< all other parts and the bin, the nearest first
+  std::vector<std::size_t> order_;  ///< indices of all other parts and the bin, the nearest ones first
 };
 
 }  // namespace bin_scenes

@@ -7,15 +7,15 @@
 
 namespace bin_scenes {
 
-/// Load, pull, lift, blocking parts and overlaps of all movable parts; their depth is not filled in.
+/// Returns load, pull, lift, blocking parts and overlaps of all movable parts. order_removal() fills in their depths.
 std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, const PlacedParts& placed);
 
-/// Fills in the depths, and returns the order of removal of all parts and the sets of parts that block each other. A
-/// set is as small as possible: each of its parts is blocked, directly or through others, by all of them.
+/// Fills in the depths, and returns the order of removal of all parts. Adds to `sets` the smallest sets of parts that
+/// block each other: each part of a set is blocked, directly or through others, by all parts of it.
 std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed,
                                std::vector<SceneGrasps::HeldSet>& sets);
 
-/// Whether `other` obstructs a movement of `part` along `direction` (unit) by `limit` (m).
+/// Returns whether `other` obstructs a movement of `part` along `direction` (unit vector) by `limit` (m).
 bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit);
 
 }  // namespace bin_scenes

@@ -7,13 +7,13 @@
 
 namespace bin_scenes {
 
-/// The columns that do not depend on neighbours and images: safety, sliding, antipodal, moment, overlap, upright,
-/// closing.
-/// @param tilt  rad, angle of approach and gravity
+/// Returns the columns that do not depend on neighbours and images: safety, sliding, antipodal, moment, overlap,
+/// upright and closing.
+/// @param tilt  angle between the approach and gravity (rad)
 GraspColumns columns_of(const Grasp& grasp, const Hold& hold, const Gripper& gripper, double friction, double tilt);
 
-/// 1 / (1 + exp(-(bias + sum of weight * column))), with the gripper's weights; the safety factors count by their
-/// logarithms.
+/// Returns the score 1 / (1 + exp(-(bias + sum of weight * column))), with the weights of the gripper. For the safety
+/// factors, the logarithm is used.
 double score_of(const GraspColumns& columns, const Gripper& gripper);
 
 }  // namespace bin_scenes

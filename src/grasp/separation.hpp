@@ -14,17 +14,17 @@ struct PlacedMesh {
   const Pose& pose;
 };
 
-/// The vertex of the mesh that is farthest along a direction; bin frame. The mesh must have triangles.
+/// Returns the vertex of a mesh that is farthest along a direction (bin frame). The mesh must have triangles.
 Vec3 farthest_vertex(const PlacedMesh& mesh, const Vec3& direction);
 
-/// A plane that has one body on the side of its normal, and another one on its other side.
+/// A plane with one body on the side of its normal, and another body on the opposite side.
 struct SeparatingPlane {
-  Vec3 normal = Vec3::Zero();                             ///< unit, bin frame; zero: none was found
-  double gap = -std::numeric_limits<double>::infinity();  ///< m between both; negative: they reach beyond the plane
+  Vec3 normal = Vec3::Zero();                             ///< unit normal, bin frame; zero: no plane was found
+  double gap = -std::numeric_limits<double>::infinity();  ///< m between both; negative: both cross the plane
 };
 
-/// The plane with the largest gap that a short search finds between `moving`, all along the displacement (m), and
-/// `other`. It ends at a gap of -tolerance (m) or more. There may be better planes.
+/// Returns the plane with the largest gap that a short search finds between `other` and `moving` at all positions along
+/// its displacement (m). The search ends at a gap of at least -tolerance (m). There may be better planes.
 SeparatingPlane separating_plane(const PlacedMesh& moving, const Vec3& displacement, const PlacedMesh& other,
                                  double tolerance);
 

@@ -6,7 +6,7 @@
 
 namespace bin_scenes {
 
-/// All grasps that a dense search finds, in the order of the points of the surface; counts all poses that were tried.
+/// Returns all grasps that a dense search finds, in the order of the surface points; adds all tried poses to `counts`.
 std::vector<Grasp> suction_grasps(const PartModel& part, const Gripper& gripper, GraspCounts& counts);
 
 }  // namespace bin_scenes

@@ -9,11 +9,11 @@
 namespace bin_scenes {
 
 struct SpreadPoint {
-  Vec3 point, normal;  ///< the normal of its triangle, outward
+  Vec3 point, normal;  ///< point on the surface (m), and outward unit normal of its triangle
 };
 
-/// `count` points with equal areas between them, independent of the sizes of the triangles; a low-discrepancy sequence
-/// determines their places within triangles. The same mesh gives the same points.
+/// Returns `count` points that are distributed by area, independent of the sizes of the triangles; a low-discrepancy
+/// sequence gives their positions within triangles. The result depends only on the mesh and on `count`.
 std::vector<SpreadPoint> spread_points(const Mesh& mesh, std::size_t count);
 
 }  // namespace bin_scenes

@@ -13,23 +13,23 @@ namespace bin_scenes {
 
 class Sweep {
  public:
-  /// @param half  half sides of the box in its own frame
+  /// @param half  half side lengths (m) of a box in the frame `pose`, whose centre is `center` in this frame
   Sweep(const Pose& pose, const Vec3& center, const Vec3& half);
-  /// An eight-sided prism around a cylinder about the frame's z, from z = low to high.
+  /// Returns an eight-sided prism around a cylinder about z of the frame `pose`, from z = low to high (m).
   static Sweep cylinder(const Pose& pose, double radius, double low, double high);
-  /// The same body moved by `displacement` as well.
+  /// Returns the volume that this body sweeps when it also moves along `displacement` (m).
   Sweep moved(const Vec3& displacement) const;
-  /// The same body moved by a pose.
+  /// Returns this body transformed by a pose.
   Sweep placed(const Pose& pose) const;
 
   const Aabb& bounds() const { return bounds_; }
-  double lowest(const Vec3& direction) const;
-  /// Whether a triangle of the mesh at `pose` has a point inside. Touching is no collision.
+  double lowest(const Vec3& direction) const;  ///< smallest coordinate along a unit direction (m)
+  /// Returns whether a triangle of a mesh at `pose` reaches into the volume. Touching is no collision.
   bool meets(const MeshQuery& mesh, const Pose& pose) const;
   bool meets(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
  private:
-  static constexpr int most = 6;  // segments: four of an octagon, one of the prism's height, one of a displacement
+  static constexpr int most = 6;  // segments: 4 of an octagon, 1 of the height, 1 of a displacement
   Sweep() = default;
   void add(const Vec3& half);
   void finish();

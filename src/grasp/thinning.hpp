@@ -12,36 +12,36 @@ namespace bin_scenes {
 
 class PoseMeasure {
  public:
-  /// @param symmetries  of the part; empty: poses that are equal by symmetry are distinguished
+  /// @param symmetries  symmetries of the part; empty: poses that are equal by a symmetry are distinguished
   PoseMeasure(const Symmetries& symmetries, Gripper::Type type);
 
   struct Limits {
-    double apart = 0.0, angle = 0.0;  ///< m between positions, rad between orientations
+    double apart = 0.0, angle = 0.0;  ///< distance of positions (m) and angle of orientations (rad) that count as 1
   };
-  /// Distance of two poses in units of the limits: the larger one of distance / apart and angle / angle, for the
-  /// symmetry that makes it smallest. If it is at least `enough`, the result may be any value of at least `enough`.
+  /// Returns the larger one of distance / Limits::apart and angle / Limits::angle of two poses, for the symmetry that
+  /// makes it smallest. If it is at least `enough`, the result may be any value of at least `enough`.
   double distance(const Pose& a, const Pose& b, const Limits& limits,
                   double enough = std::numeric_limits<double>::infinity()) const;
-  /// The images of a pose under all symmetries: the smallest plain distance of b from one of them is distance(a, b).
-  /// Empty if there is an axis of rotational symmetry, for which the turn depends on b.
+  /// Returns the images of a pose under all symmetries: the smallest plain_distance of b from one of them is
+  /// distance(a, b). Empty if there is an axis of rotational symmetry, because the rotation then depends on b.
   std::vector<Pose> mapped(const Pose& a) const;
   double plain_distance(const std::vector<Pose>& mapped, const Pose& b, const Limits& limits, double enough) const;
   bool near(const Pose& a, const Pose& b, const Limits& limits) const { return distance(a, b, limits, 1.0) < 1.0; }
-  /// All poses to which symmetries move a pose, the pose itself first; rotational symmetries in steps of the limits.
+  /// Returns all images of a pose under the symmetries, the pose itself first; rotations in steps of the limits.
   std::vector<Pose> images(const Pose& pose, const Limits& limits) const;
 
  private:
   double angle_between(const Quat& a, const Quat& b) const;
   Quat about_axis(const Pose& a, const Pose& b, double arm) const;
 
-  std::vector<Pose> maps_;  ///< the identity first
+  std::vector<Pose> maps_;  ///< the identity, then the discrete symmetries of the part
   std::vector<Symmetries::Axis> axes_;
   Gripper::Type type_;
 };
 
-/// Indices of chosen poses. The first ones cover all poses coarsely, later ones ever more finely, until no pose is
-/// farther than the limits from a chosen one. Within one cover, earlier poses come first. The first n indices do not
-/// depend on `most`.
+/// Returns the indices of chosen poses. The first ones cover all poses coarsely, later ones ever more finely, until no
+/// pose is farther than the limits from a chosen one. Within one cover, earlier poses come first. The first n indices
+/// are the same for each value of `most`, the largest number of indices.
 std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure& measure,
                               const PoseMeasure::Limits& limits, std::size_t most);
 

@@ -1,6 +1,6 @@
-/// Rounded edges in shading. Edges of CAD models are razor sharp, those of real parts are broken by a bevel or fillet
-/// that shines along the whole edge. Near a convex edge, the normal is that of a fillet between the two faces, where
-/// the bisector of the faces through the point meets it. Outlines and depth stay those of the mesh.
+/// Shades edges as if they were rounded. Edges of CAD models are sharp; those of real parts have a bevel or fillet that
+/// shines along the whole edge. Near a convex edge, the normal is that of a fillet between both faces, where the
+/// bisector of the faces through the point meets it. Outlines and depth stay those of the mesh.
 #pragma once
 
 #include "bin_scenes/raster/scenery.hpp"
@@ -13,19 +13,19 @@ namespace bin_scenes {
 
 class Bevels {
  public:
-  /// @param radius  m, of all fillets
+  /// @param radius  radius of all fillets (m)
   Bevels(const Scenery& scenery, double radius);
-  /// Returns the unit normal (bin frame) at a point on a part that was hit. @param smooth  its normal without bevels,
-  /// which is returned where no edge is near and where the inside of a face was hit
+  /// Returns the unit normal (bin frame) for shading a point on a part that was hit. @param smooth  its normal without
+  /// bevels, which is returned if no edge is near or if the inner side of a face was hit
   Vec3 normal(const Hit& hit, const Vec3& point, const Vec3& smooth) const;
 
  private:
   /// A convex edge of a face, in the frame of the mesh.
   struct Edge {
-    Vec3 from, along;  ///< an end; unit
+    Vec3 from, along;  ///< one end of the edge; unit direction from there
     double length;
-    Vec3 own, other;  ///< outward normals of the face and of the other face
-    double reach;     ///< m, how far the fillet extends from the edge along the face
+    Vec3 own, other;  ///< outward unit normals of the face to which this edge belongs, and of the other face
+    double reach;     ///< m, distance from the edge up to which the fillet extends along the face
   };
   struct EdgesOfMesh {
     const Mesh* mesh;
@@ -36,7 +36,7 @@ class Bevels {
 
   double radius_;
   struct Body {
-    std::shared_ptr<const EdgesOfMesh> edges;  ///< null: it has no fillets
+    std::shared_ptr<const EdgesOfMesh> edges;  ///< null: the body has no fillets
     const std::vector<Scenery::Plane>* planes = nullptr;
     Pose pose;
   };

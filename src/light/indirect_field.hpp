@@ -17,8 +17,8 @@ namespace bin_scenes {
 class IndirectField {
  public:
   struct Setup {
-    int bounces = 0;   ///< 0: no indirect light
-    int samples = 16;  ///< smallest number of rays of a node
+    int bounces = 0;   ///< largest number of reflections at other surfaces; 0: no indirect light
+    int samples = 16;  ///< smallest number of rays that are cast at a node
     /// Standard error of a node's light / Pattern::unit above which it gets more rays; 0: no node does.
     double error = 0.02;
   };
@@ -27,10 +27,10 @@ class IndirectField {
   using Respond = std::function<void(const std::vector<Path>& paths, const Vec3* steps, float* channels)>;
   struct Pattern {
     int channels;  ///< number of channels that `respond` adds to
-    int growing;  ///< number of channels, from the first on, that are followed between nodes as the paths move with the
-                  ///< pixel; the others are interpolated only
+    int growing;   ///< number of channels, from the first on, whose change with the pixel's position is interpolated as
+                   ///< well; the others are interpolated by value only
     Respond respond;
-    double unit = 0.0;  ///< the light to which Setup::error is relative: typical direct light, in the unit of
+    double unit = 0.0;  ///< light to which Setup::error is relative: that of typical direct light, in the unit of
                         ///< Path::weight; 0: none
   };
 
@@ -42,19 +42,19 @@ class IndirectField {
   bool at(std::size_t pixel, int count, float* channels) const;
 
  private:
-  /// The data by which two pixels count as seeing the same face.
+  /// Face that a pixel sees. Two pixels count as seeing the same face if these data agree.
   struct Face {
-    Eigen::Vector3f point, normal;  ///< camera frame, m
+    Eigen::Vector3f point, normal;  ///< point (m) and unit normal, camera frame
     std::int32_t line;
     std::uint16_t label;
   };
   struct Node {
     Face face;
     float x, y;   ///< position in the image (pixels)
-    float reach;  ///< pixels, distance over which it is averaged with other nodes
+    float reach;  ///< pixels, distance up to which it is averaged with other nodes
     bool lit;
   };
-  /// Nodes with their channels: those that are followed, with their changes to the right and down, and the others.
+  /// Nodes with channels. `followed`: the first Pattern::growing ones, with their changes to the right and down.
   struct Nodes {
     std::vector<Node> all;
     std::vector<float> followed, others;
@@ -83,11 +83,11 @@ class IndirectField {
   Random random_;
   int width_, height_;
   int columns_, rows_;                   ///< numbers of tiles
-  std::vector<Eigen::Vector3f> points_;  ///< m, camera frame, by pixel
+  std::vector<Eigen::Vector3f> points_;  ///< point that each pixel sees (m), camera frame
   Nodes nodes_;
-  std::vector<std::uint32_t> near_;   ///< nodes that count in tiles, tile by tile
-  std::vector<std::uint32_t> first_;  ///< by tile, with one more entry: index of its first node in near_
-  std::vector<char> lit_;             ///< by tile: whether any of its nodes is lit
+  std::vector<std::uint32_t> near_;   ///< indices of the nodes whose reach includes a tile, tile by tile
+  std::vector<std::uint32_t> first_;  ///< for each tile, and one more at the end: index of its first entry in near_
+  std::vector<char> lit_;             ///< for each tile: whether any of its nodes is lit
 };
 
 }  // namespace bin_scenes

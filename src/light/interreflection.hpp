@@ -11,15 +11,15 @@
 
 namespace bin_scenes {
 
-/// What lights the scene.
+/// A light source that illuminates the scene, as interreflections use it.
 class Lamp {
  public:
   virtual ~Lamp() = default;
-  /// Light of `count` points, each seen by an eye of its own.
+  /// Computes the direct light at `count` points, each seen from an eye position of its own.
   virtual void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const = 0;
-  /// Returns the gradient of the column with respect to the position of a point (1/m).
+  /// Returns the gradient (1/m) of the column of a point in the lamp's image, with respect to the point's position.
   virtual Vec3 slope(const Vec3& point, double column) const = 0;
-  /// Unit, the direction of its light at a point.
+  /// Returns the unit direction in which the lamp's light arrives at a point.
   virtual Vec3 direction_at(const Vec3& point) const = 0;
 };
 
@@ -35,21 +35,21 @@ class ProjectorLamp : public Lamp {
   Lens projector_;
   Pose pose_;
   const Surfaces& surfaces_;
-  Vec3 share_, ahead_;  ///< column = share . p / ahead . p, of a point p seen from the projector; distortion left out
+  Vec3 share_, ahead_;  ///< column = (share . p) / (ahead . p) for a point p relative to the projector; no distortion
 };
 
 struct Path {
-  double column;  ///< position in the projector's image
-  double weight;  ///< white light that reaches the eye: Lit::reflected / distance^2 as of direct light
-  double spread;  ///< columns that the sample stands for, from one side to the other
-  Vec3 slope;     ///< 1/m, gradient of the column when the point moves while the direction and all planes stay the same
-  double length;  ///< m, from the lamp via the other surfaces to the point
+  double column;  ///< column in the projector's image at which the path begins
+  double weight;  ///< light that a white pattern sends to the eye; unit as Lit::reflected / distance^2 of direct light
+  double spread;  ///< width of the range of columns that this sampled path represents
+  Vec3 slope;     ///< 1/m, gradient of the column when the point moves while direction and planes stay the same
+  double length;  ///< m, length of the path from the lamp via the other surfaces to the point
   Vec3 longer;    ///< gradient of the path length under the same motion
 };
 
 struct Gathered {
-  std::vector<Path> paths;  ///< the paths that are lit
-  double nearness = 0.0;    ///< 1/m, mean over the samples of 1 / distance to what they meet
+  std::vector<Path> paths;  ///< all sampled paths that carry light
+  double nearness = 0.0;    ///< 1/m, mean over all rays of 1 / distance to the surface that they hit
 };
 
 /// The surfaces that rays can hit, and the lamp that lights them.
@@ -60,13 +60,13 @@ struct LitScene {
 };
 
 struct Search {
-  int samples;  ///< rays, as the surface takes light
-  int bounces;  ///< 1: light that met one other surface; 2: that which met two as well
-  double too_near = std::numeric_limits<double>::infinity();  ///< 1/m, nearness from which on nothing is lit
+  int samples;  ///< number of rays, distributed like the lobe of the surface
+  int bounces;  ///< 1: light reflected by one other surface; 2: also light reflected by two
+  double too_near = std::numeric_limits<double>::infinity();  ///< 1/m, nearness from which on no light is gathered
 };
 
-/// @param key     of the random numbers of this point
-/// @return false  it was too near
+/// Gathers the indirect light that a point sends to an eye. @param key  random numbers of this point
+/// @return false if the surroundings were nearer than Search::too_near; `out` then has no paths
 bool gather(const LitScene& scene, const SeenPoint& point, const Vec3& eye, const Search& search, Random key,
             Gathered& out);
 

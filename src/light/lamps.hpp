@@ -16,41 +16,41 @@ using Rgb = Eigen::Array3d;  ///< red, green, blue
 
 class Lamps {
  public:
-  /// @param lamps   none: one dome
-  /// @param sensor  where the camera and its projector are; their poses and K are filled in
+  /// @param lamps   lamps of the request; if empty, one dome is used
+  /// @param sensor  gives the poses and K of camera and projector, which must be filled in
   Lamps(std::vector<ImageLamp> lamps, const Sensor& sensor);
-  /// Light from everywhere, of so much radiance.
+  /// Adds uniform light from all directions with this radiance.
   void add_everywhere(double radiance);
 
-  /// A point on a lamp as another point sees it.
+  /// A random point on a lamp, as seen from the point that it illuminates.
   struct Sample {
-    Vec3 direction;           ///< unit, to the lamp
-    double distance = 0.0;    ///< m
-    Rgb light = Rgb::Zero();  ///< radiance / density; 0: the lamp does not shine there
-    double density = 0.0;     ///< per solid angle (1/sr), with that of choosing the lamp; 0: no ray meets that lamp
+    Vec3 direction;           ///< unit vector towards the lamp
+    double distance = 0.0;    ///< m, distance of the lamp
+    Rgb light = Rgb::Zero();  ///< radiance / density; 0: the lamp does not shine in that direction
+    double density = 0.0;     ///< probability density (1/sr), choice of lamp included; 0: no ray can hit it
   };
-  /// @param choice, u, v  [0, 1)
+  /// Draws a point on a lamp. @param choice, u, v  random numbers in [0, 1): choice of the lamp, place on it
   Sample sample(const Vec3& from, double choice, double u, double v) const;
 
-  /// Weight of a lamp that is met by a ray, by the density (1/sr) with which sample() draws that direction.
+  /// How met() weights a lamp that a ray hits, so that light that sample() finds as well is not counted twice.
   enum class Met {
-    all,        ///< 1: nothing else counts this light
-    unsampled,  ///< 0 where sample() counts it, too
-    shared      ///< as the ray's own density is to both (Veach, Guibas 1995, "Optimally combining sampling techniques")
+    all,        ///< weight 1: sample() is not used
+    unsampled,  ///< weight 0 for lamps that sample() can draw, 1 for others
+    shared      ///< the ray's density / sum of both densities (balance heuristic: Veach, Guibas 1995)
   };
-  /// Radiance that comes against a ray of unit direction.
-  /// @param reach    m to the surface that the ray hits; infinite: none
-  /// @param density  of the ray (1/sr)
+  /// Returns the weighted radiance of all lamps that a ray with a unit direction meets.
+  /// @param reach    distance (m) of the surface that the ray hits; infinite if it hits none
+  /// @param density  probability density with which the direction of the ray was drawn (1/sr)
   Rgb met(const Vec3& origin, const Vec3& direction, double reach, Met weight, double density) const;
 
   bool any_sampled() const { return !shares_.empty(); }
-  /// Whether met() counts anything with that weight.
+  /// Whether met() can return light with that weight.
   bool any_met(Met weight) const { return any_behind_all(weight) || (weight != Met::unsampled && !flats_.empty()); }
-  /// Returns the radiance of lamps that are behind all surfaces, such as the sky.
+  /// Whether met() counts, with that weight, lamps that are behind all surfaces, such as the sky.
   bool any_behind_all(Met weight) const { return !domes_.empty() || (weight != Met::unsampled && !skies_.empty()); }
-  /// Whether a ray hits a lamp with a position, whatever is between.
+  /// Whether a ray hits a lamp with a position (area or ring), regardless of surfaces in between.
   bool flat_ahead(const Vec3& origin, const Vec3& direction, Met weight) const;
-  /// Radiance of a white matte plate that nothing occludes.
+  /// Returns the radiance of a white matte plate at a point, if nothing occludes the lamps.
   Rgb on_plate(const Vec3& point, const Vec3& normal) const;
 
  private:
@@ -70,9 +70,9 @@ class Lamps {
     Pose pose;
     Rgb radiance;
   };
-  /// m along a ray of unit direction to where it meets the lamp's front; NaN: it does not.
+  /// Returns the distance (m) at which a ray with a unit direction hits the front of the lamp; NaN if it does not.
   static double distance_to(const Flat& flat, const Vec3& origin, const Vec3& direction);
-  /// @param share  of all samples that choose this lamp
+  /// Draws a point on one lamp. @param share  share of all samples that choose this lamp
   void sample_one(std::size_t lamp, double share, const Vec3& from, double u, double v, Sample& out) const;
   void sample_flat(const Flat& flat, double share, const Vec3& from, double u, double v, Sample& out) const;
   static void sample_beam(const Beam& beam, double share, const Vec3& from, Sample& out);
@@ -81,7 +81,7 @@ class Lamps {
   std::vector<Beam> beams_;
   std::vector<Dome> domes_;
   std::vector<Sky> skies_;
-  std::vector<double> shares_;  ///< share of the samples of each lamp: flats, beams, skies; their sum is 1
+  std::vector<double> shares_;  ///< share of the samples that each lamp gets: flats_, beams_, skies_; their sum is 1
 };
 
 }  // namespace bin_scenes

@@ -7,10 +7,10 @@
 /// via two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
 /// robust light transport").
 ///
-/// The random points fill their squares evenly (Sobol points whose digits are flipped by a key of the pixel), so that
-/// images depend on seed, scene, sensor and pixel only. At the surface that a pixel sees, half of its paths draw a
-/// point on a lamp and the others follow the lobe. Half of the latter continue to further surfaces, where each does
-/// both. Their contributions count two and four times, because light from there varies slowly.
+/// The random points are distributed evenly (Sobol points, scrambled by a key of the pixel). At the surface that a
+/// pixel sees, half of its paths sample a point on a lamp, and the others follow the lobe. Half of the latter continue
+/// to further surfaces, where each path does both. Contributions of a half and of a quarter of the paths count two and
+/// four times. Few paths suffice there, as that light varies slowly.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
@@ -29,26 +29,26 @@ namespace bin_scenes {
 class PathTracer {
  public:
   struct Setup {
-    int samples = 16;              ///< paths a pixel, a power of two
-    int bounces = 1;               ///< other surfaces that light may meet
-    double blur = 0.0;             ///< pixel, standard deviation of the lens's blur
-    double near = 0.0, far = 1e9;  ///< m, depths that are seen
+    int samples = 16;              ///< number of paths for each pixel, a power of two
+    int bounces = 1;               ///< largest number of other surfaces that reflect light to the visible one
+    double blur = 0.0;             ///< pixels, standard deviation of the blur of the lens
+    double near = 0.0, far = 1e9;  ///< m, range of depths that the camera sees
     double aperture = 0.0;         ///< m, diameter of the lens's opening; 0: a pinhole
-    double focus = 1.0;            ///< m, depth that is sharp
-    double soft = 0.5;             ///< least roughness of mirrors from the second surface on
+    double focus = 1.0;            ///< m, depth at which the image is sharp
+    double soft = 0.5;             ///< smallest roughness of shiny surfaces from the second surface on
     const Bevels* bevels = nullptr;
     enum class By { both, lamps, lobe } by = By::both;  ///< how lamps are found; tests compare these methods
   };
   PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
              const Setup& setup, const Random& key);
 
-  static constexpr double bends = 0.82;  ///< cosine of 35 degrees: faces that meet in more are two
-  /// A side of an edge within a pixel: the part that some of its paths see, on faces that continue each other.
+  static constexpr double bends = 0.82;  ///< cosine of 35 degrees, the largest angle between faces of one side
+  /// One side of an edge that crosses a pixel: a group of connected faces of one part that some paths of the pixel see.
   struct Side {
-    Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = point;  ///< bin frame, m
+    Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = point;  ///< a point of it (m); unit normal; bin frame
     std::uint16_t label = 0;
-    float share = 0.0f;  ///< share of all paths that end in this group
-    /// Whether another point is of it. @param off  m, so far it may lie from the plane of this one
+    float share = 0.0f;  ///< share of the pixel's paths that see this side
+    /// Whether a point with this normal and label is on this side. @param off  largest distance (m) from its plane
     bool takes(const Eigen::Vector3f& other, const Eigen::Vector3f& its_normal, std::uint16_t of, float off) const;
   };
   /// The uncertainty of the radiance of a pixel.
@@ -57,13 +57,13 @@ class PathTracer {
     std::array<Side, 2> sides = {};  ///< the first two sides that paths see; shares of further sides are missing
     bool one_face() const { return sides[0].share == 1.0f; }
   };
-  /// Mean radiance of each pixel of a row.
-  /// @param grain  of the row's pixels, if given
+  /// Returns the mean radiance of each pixel of a row of the image.
+  /// @param grain  output, unless null: the uncertainty of each pixel of the row
   std::vector<Rgb> row(std::size_t row, Grain* grain = nullptr) const;
 
  private:
   struct Vertex {
-    Vec3 position = Vec3::Zero(), face = position, normal = position;  ///< `normal`: smooth across edges, for shading
+    Vec3 position = Vec3::Zero(), face = position, normal = position;  ///< `normal`: smooth normal, for shading
     Vec3 to_eye = Vec3::Zero();
     std::int32_t line = -1;
     std::uint16_t label = 0;
@@ -77,7 +77,7 @@ class PathTracer {
   struct Block;
 
   const Surface& surface_of(const Vertex& vertex, int bounce, Surface& own) const;
-  /// Whether paths that find a lamp along the lobe of the surface share it with points on lamps.
+  /// Whether lamps found along the lobe and points drawn on lamps are weighted (multiple importance sampling).
   bool mirrors(const Surface& surface, int bounce) const {
     return surface.gloss > 0.0 && (bounce == 0 || setup_.soft < 0.5);
   }
@@ -103,15 +103,15 @@ class PathTracer {
   Pose pose_;
   Mat3 turn_;
   const Surfaces& surfaces_;
-  Surfaces soft_;  ///< surfaces for hits that the camera does not see directly
+  Surfaces soft_;  ///< surfaces with at least the roughness Setup::soft, for hits that the camera does not see
   const Lamps& lamps_;
   Setup setup_;
   Random key_;
-  /// Number of a pixel's paths that follow the lobe of the visible surface and continue. The paths from this number on
-  /// test points on lamps at the visible surface.
+  /// At the visible surface, the first follow_ paths of a pixel follow the lobe, the first onward_ of these continue to
+  /// further surfaces, and the paths from ask_from_ on sample points on lamps.
   std::uint32_t follow_, onward_, ask_from_;
   SpotDrawing spots_;
-  std::vector<std::array<std::uint32_t, 2>> net_;  ///< points of the unit square, times 2^32
+  std::vector<std::array<std::uint32_t, 2>> net_;  ///< Sobol points of the unit square, times 2^32
 };
 
 }  // namespace bin_scenes

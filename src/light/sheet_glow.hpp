@@ -22,39 +22,39 @@ class SheetGlow {
     Lens lens;
     bool upright;  ///< the line is vertical in the image, with one sample for each row
     double near, far;
-    double blur;   ///< pixel, standard deviation of the lens's blur
-    double sheet;  ///< m, standard deviation across the sheet
+    double blur;   ///< pixels, standard deviation of the blur of the lens
+    double sheet;  ///< m, standard deviation of the thickness of the sheet of light
   };
   /// A point where a ray of the fan hit a surface.
   struct Source {
     SeenPoint point;
-    double flux;  ///< light of the sheet between this ray and the next: signal of a white surface that faces the laser,
-                  ///< times m^2
-    double apart;  ///< m, to where the next ray passes
+    double flux;   ///< light of the sheet between this ray and the next, in the unit signal of a white surface that
+                   ///< faces the laser * m^2
+    double apart;  ///< m, distance at which the next ray passes
   };
   SheetGlow(const Scenery& scenery, const Surfaces& surfaces, const Camera& camera);
 
-  /// Adds light of `count` rays from all sources.
-  /// @param view     of the camera
-  /// @param laser    from where the sources are lit
-  /// @param bounces  other surfaces that light meets after the first one, at most
+  /// Follows `count` rays of reflected light from the sources, and adds the light that the camera sees of them.
+  /// @param view     pose of the camera
+  /// @param laser    position of the laser, which lights the sources
+  /// @param bounces  largest number of further surfaces that the light meets after its source
   void follow(const Pose& view, const Vec3& laser, const std::vector<Source>& sources, std::size_t count, int bounces,
               Random key);
 
-  /// Signal of a pixel (integers: its centre); 0 outside the image.
+  /// Returns the signal of the reflected light in a pixel, along and across the line; 0 outside the image.
   double at(int sample, int across) const;
-  /// The brightest pixel of a sample that lies in no range [first, second] of `taken`; -1: none has `least`.
+  /// Returns the brightest pixel of a sample outside the ranges [first, second] of `taken`; -1: none reaches `least`.
   int brightest(int sample, double least, const std::vector<std::pair<int, int>>& taken) const;
 
  private:
-  /// Signals in cells of the image, as tents between them.
+  /// Signals at the corners of cells of the image, with linear interpolation between them.
   class Grid {
    public:
     Grid(int samples, int across, int tall, int wide);
-    /// @param along, across  half widths of the spot (pixel)
+    /// Adds a spot of light. @param along, across  half widths of the spot (pixels)
     void add(double sample, double place, double along, double across, double light);
     double at(double sample, double place) const;
-    double most(double sample) const;  ///< no pixel of the sample has more
+    double most(double sample) const;  ///< returns an upper limit of at() for all pixels of a sample
 
    private:
     int tall_, wide_, rows_, columns_;
@@ -72,7 +72,7 @@ class SheetGlow {
   const Surfaces& surfaces_;
   Camera camera_;
   int samples_, across_;
-  Grid fine_, coarse_;  ///< light of narrow and of wide spots
+  Grid fine_, coarse_;  ///< grids with small cells for narrow spots, and with large cells for wide spots
 };
 
 }  // namespace bin_scenes

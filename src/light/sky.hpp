@@ -12,25 +12,25 @@
 
 namespace bin_scenes {
 
-/// A picture of all directions: the first row is the zenith's.
+/// An equirectangular picture of all directions; its first row is at the zenith.
 struct Panorama {
   int width = 0, height = 0;
-  std::vector<Eigen::Array3f> radiance;  ///< row-major
+  std::vector<Eigen::Array3f> radiance;  ///< red, green and blue of each pixel, row-major
 };
 /// Reads a Radiance file (.hdr).
 std::shared_ptr<const Panorama> read_panorama(const std::string& path);
 
 class Sky {
  public:
-  /// @param turn  rad about the vertical; at 0 the picture's centre lies in the direction of x
+  /// @param turn  rotation about the vertical (rad); at 0, the centre of the picture is in the direction of x
   Sky(std::shared_ptr<const Panorama> picture, const Eigen::Array3d& scale, double turn);
   Eigen::Array3d at(const Vec3& direction) const;
 
   struct Sample {
     Vec3 direction;
-    double density;  ///< per solid angle (1/sr)
+    double density;  ///< probability density of the direction per solid angle (1/sr)
   };
-  /// @param u, v  [0, 1)
+  /// Draws a direction. @param u, v  random numbers in [0, 1)
   Sample sample(double u, double v) const;
   /// Returns the probability density with which sample() draws a direction; 0: never.
   double density(const Vec3& direction) const;
@@ -45,7 +45,7 @@ class Sky {
   std::shared_ptr<const Panorama> picture_;
   Eigen::Array3d scale_;
   double turn_;
-  std::vector<double> rows_, columns_;  ///< flux up to the end of each row; of each pixel in its row
+  std::vector<double> rows_, columns_;  ///< flux summed up to each row; to each pixel within its row
 };
 
 }  // namespace bin_scenes

@@ -8,12 +8,12 @@
 
 namespace bin_scenes {
 
-/// The point of the unit circle at a share of a turn, within 2e-16 of its place.
+/// Returns the point (cosine, sine) of the unit circle at a share of a full turn, with an error of at most 2e-16.
 /// @param share  0 to 1
 inline Eigen::Vector2d on_unit_circle(double share) {
   const int quarter = static_cast<int>(4.0 * share + 0.5);
   const double x = 2.0 * M_PI * (share - 0.25 * quarter), square = x * x;
-  double cosine = 1.0, sine = 1.0;  // Taylor's series, which need no more terms for an eighth of a turn
+  double cosine = 1.0, sine = 1.0;  // Taylor series; an eighth of a turn needs no more terms
   for (int k = 16; k > 0; k -= 2) {
     cosine = 1.0 - square * (1.0 / (k * (k - 1))) * cosine;
     sine = 1.0 - square * (1.0 / (k * (k + 1))) * sine;

@@ -1,7 +1,7 @@
-/// The texture of a worn surface. Scratches, oil and rust are grains at random places in the frame of the part, which
-/// its surface cuts. The share of space that their union covers has a closed form: 1 - exp(-grains per volume * volume
-/// of a grain) (the Boolean model; Chiu, Stoyan, Kendall, Mecke 2013, "Stochastic geometry and its applications",
-/// chapter 3).
+/// The texture of a worn surface. Scratches, oil and rust are modelled as grains at random positions in the volume of
+/// the part, which appear where its surface cuts them. Their union covers the share 1 - exp(-grains per volume * volume
+/// of a grain) of space (the Boolean model; Chiu, Stoyan, Kendall, Mecke 2013, "Stochastic geometry and its
+/// applications", chapter 3).
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
@@ -10,8 +10,8 @@
 
 namespace bin_scenes {
 
-/// @param point  part's frame
-/// @param key    of the part
+/// Returns the surface with wear at a point. @param point  in the frame of the part (m)
+/// @param key    random key of the part
 Surface worn(Surface surface, const Vec3& point, std::uint64_t key);
 
 }  // namespace bin_scenes

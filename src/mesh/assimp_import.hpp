@@ -11,12 +11,12 @@ namespace bin_scenes {
 
 /// The mesh that assimp reads from a file, or its error message.
 struct Import {
-  std::string complaint;  ///< empty if it was read
+  std::string complaint;  ///< error message; empty if the file was read
   Mesh mesh;
   std::uint64_t meshes = 0, points = 0, lines = 0;
 };
 
-/// assimp in a process of its own; the result comes back through a pipe.
+/// Runs assimp in a process of its own, which returns the result through a pipe.
 Import import_contained(const std::string& bytes, const std::string& format);
 
 }  // namespace bin_scenes

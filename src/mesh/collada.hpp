@@ -9,15 +9,15 @@ namespace bin_scenes::collada {
 
 struct Asset {
   std::optional<double> metres_per_unit;
-  std::string up_axis = "Y_UP";  ///< the standard's default
+  std::string up_axis = "Y_UP";  ///< axis that points up; the default is that of the standard
 };
 
-/// Unit and up axis of the document.
-/// Throws std::runtime_error with the place if it is not well-formed XML, or states a unit that is none.
+/// Returns unit and up axis of the document.
+/// Throws std::runtime_error with the position if it is not well-formed XML, or if it states an invalid unit.
 Asset read_asset(const std::string& document);
 
-/// The document with geometry and scene graph only: no images, materials, effects, lights, cameras or animations,
-/// where most of the faults sit that make assimp refuse a file. Nothing of it matters to the shape.
+/// Returns the document with geometry and scene graph only. Images, materials, effects, lights, cameras and animations
+/// do not affect the shape, and contain most of the faults for which assimp refuses a file.
 std::string geometry_only(const std::string& document);
 
 }  // namespace bin_scenes::collada

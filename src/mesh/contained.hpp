@@ -15,8 +15,8 @@ struct Contained {
 };
 
 struct ContainedLimits {
-  unsigned cpu_seconds = 60;  ///< limit on processor time, which a busy machine does not change as it changes wall time
-  std::size_t bytes = std::size_t{4} << 30;  ///< memory beside what the parent has
+  unsigned cpu_seconds = 60;  ///< limit on processor time; unlike wall time, it does not depend on the machine's load
+  std::size_t bytes = std::size_t{4} << 30;  ///< limit on memory in addition to the parent's
 };
 
 /// Runs `work` in a child process. `work` must throw nothing but std::bad_alloc and use nothing but memory and files,

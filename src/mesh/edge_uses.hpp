@@ -13,10 +13,10 @@ namespace bin_scenes::repair {
 
 /// The use of an edge by one triangle. In a sorted list, all uses of an edge are adjacent.
 struct EdgeUse {
-  std::uint32_t low, high;  // vertices, ascending
+  std::uint32_t low, high;  // indices of the vertices, ascending
   std::uint32_t triangle;
-  std::uint8_t corner;  // the edge runs from this corner to the next
-  bool forward;         // from low to high
+  std::uint8_t corner;  // the edge runs from this corner of the triangle to the next
+  bool forward;         // whether it runs from low to high
   bool operator<(const EdgeUse& o) const {
     return std::tie(low, high, triangle, corner) < std::tie(o.low, o.high, o.triangle, o.corner);
   }
@@ -25,7 +25,7 @@ struct EdgeUse {
 
 std::vector<EdgeUse> edge_uses(const Mesh& mesh);
 
-/// Calls visit(first, last) for the passages of each edge.
+/// Calls visit(first, last) for the uses of each edge.
 template <class Visit>
 void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
   BIN_SCENES_ASSERT(std::is_sorted(uses.begin(), uses.end()));
@@ -37,10 +37,10 @@ void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
   }
 }
 
-/// Passages from the lower vertex to the higher one less those back. 0 = closed there.
+/// Returns the number of uses from the lower to the higher vertex, minus those back. 0: the edge is closed.
 int surplus(const EdgeUse* first, const EdgeUse* last);
 
-/// Edges that more triangles pass in one direction than in the other, counted with that surplus. 0 = closed.
+/// Returns the number of open edges; an edge counts as often as its surplus. 0: the mesh is closed.
 std::size_t open_edges(const Mesh& mesh);
 
 }  // namespace bin_scenes::repair

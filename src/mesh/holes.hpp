@@ -10,7 +10,7 @@
 
 namespace bin_scenes::repair {
 
-/// Boundary loops, in the direction in which a triangle that closes them passes them.
+/// Returns the vertices of each boundary loop, in the direction in which a triangle that closes it passes them.
 std::vector<std::vector<std::uint32_t>> boundary_loops(const Mesh& mesh);
 double perimeter(const Mesh& mesh, const std::vector<std::uint32_t>& loop);
 
@@ -19,7 +19,7 @@ double perimeter(const Mesh& mesh, const std::vector<std::uint32_t>& loop);
 /// Sharir 1995, "Filling gaps in the boundary of a polyhedron"); very long loops are closed by a fan of triangles
 /// around their centroid.
 struct Closed {
-  std::size_t small = 0, hidden = 0;
+  std::size_t small = 0, hidden = 0;  ///< number of loops that were short, and that were hidden
 };
 Closed close_holes(Mesh& mesh, double max_perimeter);
 

@@ -17,11 +17,11 @@ struct MeshFile {
   std::size_t meshes = 0;
   std::optional<double> metres_per_unit;  ///< the factor that the file states; none if it states none
   double tessellation_error = 0.0;        ///< STEP, IGES: largest distance of a triangle from the true surface
-  std::vector<Flag> flags;                ///< what was repaired in memory, and what was left out
+  std::vector<Flag> flags;                ///< remarks on what was repaired or left out
 };
 
-/// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where
-/// that can be determined), nothing but points or lines.
+/// Throws an input Error with path, cause and remedy if the format is unknown, if assimp refuses the file (with its
+/// fault, where that can be determined), or if it contains nothing but points or lines.
 MeshFile parse_mesh_file(const ModelFile& file, const LoadOptions& options);
 
 }  // namespace bin_scenes

@@ -7,12 +7,12 @@
 
 namespace bin_scenes {
 
-/// Three digits.
+/// Returns a number with three significant digits.
 inline std::string number(double x) {
   return formatted("%.3g", x);
 }
 
-/// "1 hole", "2 holes".
+/// Returns a count with its noun: "1 hole", "2 holes".
 inline std::string count(std::size_t n, const char* thing) {
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }

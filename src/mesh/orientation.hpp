@@ -10,7 +10,7 @@ namespace bin_scenes::repair {
 
 /// Turns triangles so that neighbours agree on the side that is outside; in each shell the majority decides.
 struct Agreement {
-  std::size_t turned = 0;
+  std::size_t turned = 0;     ///< number of triangles that were turned
   std::size_t conflicts = 0;  ///< edges that cannot be satisfied: the surface has only one side (Moebius)
 };
 Agreement agree_winding(Mesh& mesh);

@@ -9,7 +9,7 @@
 
 namespace bin_scenes::repair {
 
-/// Shell of each triangle, numbered by first triangle: connected over edges that two triangles share.
+/// The shell of each triangle: triangles that share an edge are in one shell. Shells are numbered by first triangle.
 struct Shells {
   std::vector<std::uint32_t> of_triangle;
   std::size_t count = 0;
@@ -19,8 +19,8 @@ Shells shells(const Mesh& mesh);
 double signed_volume(const Mesh& mesh);
 double area(const Mesh& mesh);
 
-/// Winding number of some triangles of a mesh about a point, by the sum of their solid angles (van Oosterom & Strackee
-/// 1983, "The solid angle of a plane triangle").
+/// Returns the winding number of some triangles of a mesh about a point, by the sum of their solid angles (van Oosterom
+/// & Strackee 1983, "The solid angle of a plane triangle").
 double winding(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Vec3& p);
 
 }  // namespace bin_scenes::repair

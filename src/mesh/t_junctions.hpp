@@ -8,8 +8,8 @@
 
 namespace bin_scenes::repair {
 
-/// Splits open edges at the vertices of other open edges that lie on them within `tolerance`: there a long edge on
-/// one side meets two short ones on the other, without a gap. Returns the number of vertices inserted.
+/// Splits open edges at the vertices of other open edges that lie on them within `tolerance`: such an edge meets two
+/// shorter ones on its other side, without a gap. Returns the number of vertices inserted.
 std::size_t split_t_junctions(Mesh& mesh, double tolerance);
 
 }  // namespace bin_scenes::repair

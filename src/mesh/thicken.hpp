@@ -8,8 +8,8 @@
 
 namespace bin_scenes::repair {
 
-/// An open surface as a closed shell of `thickness`: both sides offset by half of it along the vertex normals, the
-/// rims joined. At folds the offset grows so that the faces keep their distance (at most twice the thickness).
+/// Makes an open surface a closed shell of `thickness`: both sides are offset by half of it along the vertex normals,
+/// and the rims are joined. At folds, the offset grows so that faces keep their distance (at most twice the thickness).
 void thicken(Mesh& mesh, double thickness);
 
 }  // namespace bin_scenes::repair

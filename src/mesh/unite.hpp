@@ -8,14 +8,14 @@
 
 namespace bin_scenes::repair {
 
-/// Pairs of solid shells of a closed mesh that overlap, found by points of one inside the other: at up to 200 triangle
-/// centres and edge middles of each. Shallow overlaps may escape it. Cavities are not solid and do not count.
+/// Returns the number of pairs of solid shells of a closed mesh that overlap. Up to 200 centres of triangles and edges
+/// of each shell are tested for being inside the other; shallow overlaps may be missed. Cavities do not count.
 std::size_t overlapping_pairs(const Mesh& mesh);
 
-/// Replaces a closed mesh of overlapping solid shells by the boundary of their union: triangles are cut where those of
-/// other shells cross them, and the pieces inside another solid are left out. What remains is welded at `tolerance` and
-/// closed at its T-junctions; where that leaves gaps, it is done again from the start with other tolerances, of a tenth
-/// to three times as much. False, and the mesh is as it was, if no tolerance closes it, or it would take too long.
+/// Replaces a closed mesh of overlapping solid shells by the boundary of their union: triangles are cut where triangles
+/// of other shells cross them, and pieces inside another solid are removed. The rest is welded at `tolerance` and
+/// closed at its T-junctions; if gaps remain, the work is repeated with other tolerances, of a tenth to three times as
+/// much. Returns false, and leaves the mesh unchanged, if no tolerance closes it or if the work would take too long.
 bool unite(Mesh& mesh, double tolerance);
 
 }  // namespace bin_scenes::repair

@@ -8,15 +8,15 @@
 
 namespace bin_scenes::repair {
 
-/// Makes vertices closer than `tolerance` one (the one that comes first), drops unused vertices and the triangles
-/// that collapse to an edge. Such a triangle's neighbours meet each other afterwards: no hole opens.
+/// Merges vertices closer than `tolerance` into the first of them, and removes unused vertices and the triangles that
+/// collapse to an edge. The neighbours of such a triangle meet each other afterwards: no hole opens.
 struct Welded {
-  std::size_t vertices = 0, triangles = 0;
+  std::size_t vertices = 0, triangles = 0;  ///< numbers of those that were removed
 };
 Welded weld(Mesh& mesh, double tolerance);
 
-/// Removes triangles lower than `tolerance` over their longest side. Their neighbours then meet at T-junctions,
-/// which split_t_junctions() resolves.
+/// Removes triangles whose height over the longest side is at most `tolerance`, and returns their number. Their
+/// neighbours then meet at T-junctions, which split_t_junctions() resolves.
 std::size_t remove_slivers(Mesh& mesh, double tolerance);
 
 /// Keeps one of several equal triangles. A triangle and its mirror image bound nothing: both are removed, or one of

@@ -15,7 +15,7 @@ struct PixelBox {
   int left = 1 << 30, top = 1 << 30, right = -(1 << 30), bottom = -(1 << 30);
   void extend(int x, int y);
   bool empty() const { return right < left; }
-  std::array<int, 4> xywh() const;  ///< x, y, width, height; -1 for nothing
+  std::array<int, 4> xywh() const;  ///< x, y, width, height; all -1 if the box is empty
   /// Returns the box as BOP's scene_gt_info.json defines it: x, y, and the last pixel minus the first one.
   std::array<int, 4> first_to_last() const { return {left, top, right - left, bottom - top}; }
 };
@@ -31,8 +31,8 @@ struct Extent : PixelBox {
 
 /// Returns, by part id, the boxes of the pixels that truly show the part.
 std::vector<PixelBox> visible_boxes(const RangeImage& image, std::size_t parts);
-/// Returns the box of the whole silhouette, including what is hidden or outside the image: that of the projected
-/// vertices.
+/// Returns the box of the whole silhouette, including hidden parts and those outside of the image. It is the box of the
+/// projected vertices.
 PixelBox projected_box(const Mesh& mesh, const Pose& model_in_camera, const Sensor& sensor);
 
 }  // namespace bin_scenes

@@ -6,7 +6,7 @@
 
 namespace bin_scenes {
 
-/// RGB of three equal channels, at a quality (95) that errs by about one grey level.
+/// Returns a JPEG file with three equal channels, at quality 95, whose errors are about one grey level.
 Bytes rgb_jpeg(int width, int height, const std::vector<std::uint8_t>& samples);
 
 }  // namespace bin_scenes

@@ -15,12 +15,12 @@ namespace bin_scenes {
 
 using McapTexts = std::map<std::string, std::string>;
 
-/// Definition of a type of messages.
+/// Definition of a message type.
 struct McapSchema {
   std::string name, encoding, text;
 };
 
-/// Messages of one topic and one type.
+/// A channel: messages of one topic and one type.
 struct McapChannel {
   std::string topic;
   std::string encoding;  ///< encoding of the messages
@@ -28,9 +28,9 @@ struct McapChannel {
   McapTexts metadata;
 };
 
-/// A file that is written front to back and appears with close(). Times are in ns since the epoch. A file cut off
-/// behind a chunk is still read up to there, because each type and channel is declared in the chunk of its first
-/// message. All functions throw an environment Error if the file cannot be written.
+/// An MCAP file that is written from front to back and gets its name with close(). Times are in ns since the epoch. A
+/// file that is truncated after a chunk can be read up to there, because each chunk declares the types and channels
+/// that begin in it. All functions throw an environment Error if the file cannot be written.
 class McapFile {
  public:
   McapFile(const std::string& path, const std::string& profile);
@@ -43,7 +43,7 @@ class McapFile {
   void close();
 
  private:
-  struct Span {  ///< ns, from the earliest to the latest message
+  struct Span {  ///< times from the earliest to the latest message (ns)
     std::uint64_t first = 0, last = 0;
     bool empty = true;
     void add(std::uint64_t time);
@@ -58,14 +58,14 @@ class McapFile {
   WholeFile file_;
   std::uint32_t crc_ = 0;  ///< checksum of the bytes written so far
   std::string chunk_;      ///< records of the open chunk
-  /// Time and position of each message of the open chunk.
+  /// For each channel, time (ns) and offset of each message in the open chunk.
   std::map<ChannelId, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index_;
   Span chunk_span_, span_;  ///< first and last time of the open chunk, and of all messages
 
-  std::vector<McapSchema> schemas_;  ///< by id - 1
-  std::map<ChannelId, std::uint64_t> counts_;
-  std::uint32_t chunks_ = 0, attachments_ = 0, texts_ = 0;
-  /// Records of the summary that are known already.
+  std::vector<McapSchema> schemas_;                         ///< index: id - 1
+  std::map<ChannelId, std::uint64_t> counts_;               ///< number of messages of each channel
+  std::uint32_t chunks_ = 0, attachments_ = 0, texts_ = 0;  ///< numbers of records of each kind
+  /// Records of the summary section that have been collected so far.
   std::string schema_records_, channel_records_, chunk_indices_, attachment_indices_, metadata_indices_;
 };
 

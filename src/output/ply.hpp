@@ -8,7 +8,7 @@
 
 namespace bin_scenes {
 
-/// A file that write_ply() wrote of a mesh, in its unit. Throws an input Error for every other file.
+/// Reads a file of write_ply(), in the unit of the file. Throws an input Error for any other file.
 Mesh read_ply(const std::string& path);
 
 }  // namespace bin_scenes

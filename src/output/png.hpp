@@ -13,15 +13,15 @@ namespace bin_scenes {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Row-major samples, `channels` (1 = grey, 3 = RGB) a pixel. Throws an environment Error.
+/// Returns a PNG file. `samples` are row-major with `channels` values per pixel (1: grey, 3: RGB).
 Bytes png8(int width, int height, int channels, const std::vector<std::uint8_t>& samples);
 Bytes png16(int width, int height, const std::vector<std::uint16_t>& samples, int channels = 1);
-/// Writes a picture with its number of bits.
+/// Returns a PNG file with the bit depth of the picture.
 Bytes png_of(int width, int height, const Picture& picture);
-/// Its upper eight bits.
+/// Returns the upper eight bits of each sample.
 std::vector<std::uint8_t> in_bytes(const Picture& picture);
 
-/// A picture of few colours: a third of the bytes of RGB, and of the time to pack them.
+/// A picture of few colours: its PNG file needs a third of the bytes and of the compression time of an RGB picture.
 struct Palette {
   int width = 0, height = 0;
   std::vector<std::array<std::uint8_t, 3>> colours;  ///< at most 256
@@ -29,23 +29,23 @@ struct Palette {
 };
 Bytes png_of(const Palette& picture);
 
-/// Depth in counts of the sensor's depth_scale, 0 where nothing is valid, 65535 where it is that many or more.
+/// Returns depth / `scale` as integers; 0 where depth is not valid, and 65535 for this value and above.
 std::vector<std::uint16_t> counted_depth(const std::vector<float>& depth, double scale);
 
-/// Tenths of the SNR, 0 where it is 0, 65535 where it is that many tenths or more.
+/// Returns 10 * SNR as integers; 65535 for this value and above.
 std::vector<std::uint16_t> counted_snr(const std::vector<float>& snr);
 
-/// Three channels of 8 bits: n = value / 127.5 - 1; black where there is nothing.
+/// Returns normals as RGB, 8 bits per channel: n = value / 127.5 - 1; black where there is no surface.
 std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>>& normals);
 
-/// The scene as a picture, RGB: a colour a part, light from the upper left, edges and hollows darkened.
+/// Returns an RGB picture of the scene: one colour per part, light from the upper left, darkened edges and hollows.
 std::vector<std::uint8_t> shaded_picture(const RangeImage& image);
-/// Depth in colours, with a bar that gives their scale in metres.
+/// Returns depth as colours, with a colour bar in metres.
 Palette depth_picture(const RangeImage& image);
-/// Validity in colours, with a legend of the codes that occur.
+/// Returns validity codes as colours, with a legend of the codes that occur.
 Palette validity_picture(const RangeImage& image);
 
-/// Through a temporary name.
+/// Writes a file under a temporary name and renames it, so that the file is never incomplete.
 void write_bytes(const std::string& path, const void* data, std::size_t size);
 inline void write_bytes(const std::string& path, const Bytes& bytes) {
   write_bytes(path, bytes.data(), bytes.size());

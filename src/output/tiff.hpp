@@ -9,11 +9,11 @@
 
 namespace bin_scenes {
 
-/// One strip, deflated; 8 bits a sample, `channels` (1 = grey, 3 = RGB) a pixel.
+/// Returns a TIFF file of one deflated strip, 8 bits per sample. `channels`: 1 = grey, 3 = RGB.
 Bytes tiff8(int width, int height, int channels, const std::vector<std::uint8_t>& samples);
-/// Writes a grey image with 16 bits.
+/// Returns a TIFF file of a grey image with 16 bits.
 Bytes tiff16(int width, int height, const std::vector<std::uint16_t>& samples);
-/// A file of tiff8() or tiff16(). Throws an input Error that names the path.
+/// Reads a file of tiff8() or tiff16(). Throws an input Error that names the path.
 LoadedImage load_tiff(const std::string& path);
 
 }  // namespace bin_scenes

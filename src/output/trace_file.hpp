@@ -9,8 +9,8 @@
 
 namespace bin_scenes {
 
-/// time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz: pose of the model frame, velocity of the centre of mass, both in the
-/// bin frame, SI units, 17 digits. Parts that are not in the bin yet have no row. The file appears with finish().
+/// Columns: time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz: pose of the model frame and velocity of the centre of mass in
+/// the bin frame (SI units, 17 digits). Parts that have not entered have no row. finish() completes the file.
 class TraceFile final : public Trace {
  public:
   explicit TraceFile(const std::string& path);

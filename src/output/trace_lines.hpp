@@ -12,12 +12,12 @@ extern const char* const trace_lines_format;  ///< value of "format" in the firs
 
 /// A sample is {"time": s, "parts": [[id, x, y, z, qx, qy, qz, qw], ...], "contacts": [[a, b, point x, y, z, normal x,
 /// y, z, force x, y, z, action], ...]}: poses of model frames and contacts in the bin frame, SI units; b is -1 for the
-/// bin, and action is the number of a ContactAction. Parts that are not in the bin yet are left out.
+/// bin, and action is the number of a ContactAction. Parts that have not entered the bin are left out.
 class TraceLines final : public Trace {
  public:
   explicit TraceLines(const std::string& path);
   bool shows_contacts() const override { return true; }
-  /// Adds to the first line the weight (N) of the lightest part, to which the page scales forces.
+  /// Writes the first line with the weight (N) of the lightest part, by which the page scales the arrows of forces.
   void begin(const LoadedRequest& loaded) override;
   void add(const TraceSample& sample) override;
   void finish() override { file_.commit(); }

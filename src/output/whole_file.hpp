@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// Throws an environment Error that names the file where a piece cannot be written. Without commit() nothing is left.
+/// If a piece cannot be written, an environment Error that names the file is thrown.
 class WholeFile {
  public:
   explicit WholeFile(const std::string& path);

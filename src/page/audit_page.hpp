@@ -11,7 +11,7 @@
 
 namespace bin_scenes {
 
-/// Tables of `json` (audit_json()), and a histogram of each measure.
+/// Returns the page with tables of `json` (from audit_json()), and a histogram of each measure from `figures`.
 std::string audit_page(const std::string& name, const nlohmann::ordered_json& json, AuditFigures& figures);
 
 }  // namespace bin_scenes

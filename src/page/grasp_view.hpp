@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// grippers; grasps: the best free ones, of different parts first; counts: by gripper how many are free, and why the
-/// others are not. Empty lists if the folder of the scene has no grasps.json.
+/// Returns three lists: grippers; grasps: the best free ones, with different parts first; counts: for each gripper, how
+/// many grasps are free, and why others are not. Without grasps.json in the folder, they are empty.
 nlohmann::ordered_json grasp_view(const std::string& folder);
 
 }  // namespace bin_scenes

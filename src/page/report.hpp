@@ -8,10 +8,10 @@ namespace bin_scenes {
 
 struct ReportResult {
   std::size_t bytes = 0, scenes = 0, pictures = 0;
-  bool in_3d = false;  ///< three.js was there when the report was made
+  bool in_3d = false;  ///< whether three.js was available, so that the report has 3-D views
 };
 
-/// Reads index, plan and some scenes of a data set and writes `path`, at most 5 MB. Throws Error.
+/// Reads index, plan and some scenes of a data set, and writes a page of at most 5 MB to `path`. Throws Error.
 ReportResult write_report(const std::string& directory, const std::string& path);
 
 }  // namespace bin_scenes

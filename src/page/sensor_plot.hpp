@@ -13,9 +13,9 @@ inline double degrees(double radians) {
   return radians * 180.0 / M_PI;
 }
 
-/// SVG with two panels, a curve for each albedo, sigma on one logarithmic scale: over distance, facing, and over
-/// incidence at the centre distance. Throws an input Error for a sensor without noise, an environment Error if it
-/// cannot be written.
+/// Writes an SVG file with one curve per albedo: sigma on a logarithmic scale over the distance of a surface that faces
+/// the sensor, and over the angle of incidence at the central distance. Throws an input Error for a sensor without
+/// noise, and an environment Error if the file cannot be written.
 void write_sigma_plot(const std::string& path, const SensorMetrics& metrics);
 
 }  // namespace bin_scenes

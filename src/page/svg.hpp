@@ -9,16 +9,16 @@
 
 namespace bin_scenes {
 
-/// Lengths in the units of the picture, y downwards.
+/// All lengths are in the units of the picture; y points down.
 class Svg {
  public:
-  /// @param attributes  of the element: its size
+  /// @param attributes  attributes of the element <svg>, such as its size
   explicit Svg(const std::string& attributes)
       : text_("<svg xmlns=\"http://www.w3.org/2000/svg\" " + attributes + ">\n") {}
 
   void bar(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const std::string& colour);
   void curve(const std::vector<Eigen::Vector2d>& points, const std::string& colour, double width = 1.0);
-  /// @param anchor  start, middle or end: what of the text is at the point
+  /// @param anchor  which point of the text is at `at`: start, middle or end
   void text(const Eigen::Vector2d& at, const std::string& text, const std::string& anchor = "start",
             const std::string& colour = "");
   std::string str() const { return text_ + "</svg>\n"; }

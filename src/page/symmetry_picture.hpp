@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// PNG: the part from an upper corner; axes of any angle red, those of an order blue. Throws an environment Error.
+/// Draws the part from an upper corner; continuous axes are red, discrete ones blue. Throws an environment Error.
 void write_symmetry_picture(const std::string& path, const PartModelPtr& part, const Symmetries& symmetries);
 
 }  // namespace bin_scenes

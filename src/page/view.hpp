@@ -9,13 +9,13 @@
 
 namespace bin_scenes {
 
-/// Where the page finds what the folder of the scene does not contain.
+/// Places of the data that the folder of the scene does not contain.
 struct ViewSources {
-  std::string models;  ///< folder of the models; empty: they are looked for (view_models.hpp)
+  std::string models;  ///< folder of the models; empty: models are searched (view_models.hpp)
   std::string trace;   ///< .jsonl file of `generate --trace`; empty: the page shows the final state only
 };
 
-/// What the page contains, for a message to the user.
+/// Numbers for a message to the user: size of the page, and how many parts, clouds and trace samples it shows.
 struct ViewResult {
   std::size_t bytes = 0, parts = 0, clouds = 0;
   std::size_t samples = 0;  ///< samples of the trace in the page

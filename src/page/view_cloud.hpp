@@ -12,17 +12,17 @@
 namespace bin_scenes {
 
 struct ViewCloud {
-  /// Sensor's optical frame (m). Pixels without a measurement are at the true depth, if that is known.
+  /// Points in the optical frame (m). A pixel without a measurement has its true depth, if that is known.
   std::vector<std::array<float, 3>> points;
   std::vector<std::uint16_t> labels;   ///< 0: background or bin; part id + 1 otherwise
   std::vector<std::uint8_t> validity;  ///< codes of scene/validity.hpp
-  std::vector<float> errors;           ///< m: measured less true depth; NaN = not known
+  std::vector<float> errors;           ///< measured depth minus true depth (m); NaN: not known
   bool has_errors = false;
-  std::string source;  ///< name of the file; empty: there is none
+  std::string source;  ///< name of the file that was read; empty: there is none
 };
 
-/// From <sensor>.ply or .pcd, else from its depth image; the truth from <sensor>_truth_depth.png. At most about `most`
-/// points, thinned evenly over the image. Throws an input Error on a damaged file.
+/// Reads <sensor>.ply or <sensor>.pcd, otherwise the depth image; the truth is <sensor>_truth_depth.png. Returns about
+/// `most` points or fewer, thinned evenly over the image. Throws an input Error if a file is damaged.
 ViewCloud read_view_cloud(const std::string& folder, const Sensor& sensor, std::size_t most);
 
 }  // namespace bin_scenes

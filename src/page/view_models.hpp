@@ -10,10 +10,10 @@
 
 namespace bin_scenes {
 
-/// Mesh of an entry of `models` in scene.json (keys model, sha256 and how the file was read), in metres. The file is
-/// looked for as the request wrote it, and by its name: in `models` if that is given, in the working directory, beside
-/// the scene, above it, and in folders called models there. Throws an input Error if no file has the digest.
-/// @param bin  of scene.json; decides what size of a part without a unit is plausible
+/// Returns the mesh (m) of an entry of `models` in scene.json. The file is searched at the path of the request, and by
+/// name in `models` if that is given, in the working directory, in the folder of the scene, above it, and in folders
+/// named `models` there. Throws an input Error if no file has the digest.
+/// @param bin  bin of the scene; decides which unit is plausible for a model file that states none
 Mesh find_model(const SceneModel& model, const Bin& bin, const std::string& folder, const std::string& models);
 /// Returns the path of that file.
 std::string find_model_file(const SceneModel& model, const std::string& folder, const std::string& models);

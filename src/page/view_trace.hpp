@@ -10,9 +10,9 @@
 
 namespace bin_scenes {
 
-constexpr std::size_t most_samples = 1000;  ///< in a page; longer traces are thinned evenly
+constexpr std::size_t most_samples = 1000;  ///< of a page; longer traces are thinned evenly
 
-/// The trace as the page reads it. Arrays are packed (page/html.hpp), row-major:
+/// Returns the trace as the page reads it. Arrays are packed (page/html.hpp) in row-major order:
 ///
 ///     times     [sample], s
 ///     ids       [part] of the parts in the trace
@@ -23,7 +23,7 @@ constexpr std::size_t most_samples = 1000;  ///< in a page; longer traces are th
 ///     pairs     int32 [contact][a, b]; b is -1 for the bin
 ///     weight    N, of the lightest part
 ///
-/// Throws an input Error if the file is no such trace, or does not contain the parts of the scene.
+/// Throws an input Error if the file is not such a trace, or does not contain the parts of the scene.
 nlohmann::ordered_json view_trace(const std::string& path, const SceneFile& scene);
 
 }  // namespace bin_scenes

@@ -6,7 +6,7 @@
 
 namespace bin_scenes {
 
-/// Turns the values (distances in cells, not negative) of all nodes inside the mesh negative. Inside is where the
+/// Makes the values (distances in cells, not negative) of all nodes inside the mesh negative. A node is inside if the
 /// generalised winding number is above one half (Jacobson et al. 2013, "Robust inside-outside segmentation using
 /// generalized winding numbers").
 void sign_field(DistanceField& field, const MeshQuery& query);

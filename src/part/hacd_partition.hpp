@@ -8,10 +8,10 @@
 
 namespace bin_scenes {
 
-/// Vertices of about `count` patches of neighbouring triangles, each a point set for a hull. HACD takes time that grows
-/// with the square of the triangles and wants one connected mesh, so it gets every shell by itself, cut and thinned to
-/// a bounded number of triangles; the patches it finds are given back with all original vertices. Walls of closed
-/// cavities are left out: nothing reaches them.
+/// Returns the vertices of about `count` patches of neighbouring triangles, each as a set of points for a hull. The
+/// time of HACD grows with the square of the number of triangles, and it requires a connected mesh. It therefore
+/// processes each shell alone, cut and simplified to a limited number of triangles; the returned patches contain all
+/// original vertices. Walls of closed cavities are left out, because nothing reaches them.
 std::vector<std::vector<Vec3>> hacd_patches(const Mesh& mesh, int count);
 
 }  // namespace bin_scenes

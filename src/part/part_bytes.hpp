@@ -13,7 +13,7 @@
 
 namespace bin_scenes {
 
-/// Raise it whenever a layout below or the construction of a proxy changes: older cache files are then passed over.
+/// Increase it whenever a layout below or the construction of a shape changes, so that older files are ignored.
 constexpr int part_format = 8;
 
 using ByteWriter = WriterInto<Bytes>;

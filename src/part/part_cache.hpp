@@ -10,12 +10,12 @@
 
 namespace bin_scenes {
 
-/// Counts for PartModel::work().
+/// Counts of shapes that were built, and of shapes that were read from the cache, for PartModel::work().
 struct PartWorkCounter {
   static std::atomic<std::size_t> built, read;
 };
 
-/// Options as text for a cache key: every bit of a number counts.
+/// Returns the value of an option as text for a cache key; every bit of the number counts.
 inline std::string key_text(double value) {
   return formatted("%a ", value);
 }

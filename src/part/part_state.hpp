@@ -21,7 +21,7 @@ struct PartModel::State {
   std::once_flag query_once;
   std::unique_ptr<MeshQuery> query;
 
-  /// Proxies of one kind by their options; pointers, so that references stay good while more are added.
+  /// Shapes of one kind, by their options. They are pointers, so that references stay valid while more are added.
   template <class T>
   struct Made {
     std::mutex mutex;

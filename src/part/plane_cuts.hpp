@@ -25,7 +25,7 @@ std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double to
 
 /// The data of the solid that the cuts need.
 struct SolidMeasure {
-  /// The largest distance (m) by which a convex hull extends beyond the solid, and the point with this distance.
+  /// Returns the largest distance (m) by which a convex hull extends beyond the solid, and the point at this distance.
   std::function<std::pair<double, Vec3>(const Mesh& hull)> protrusion;
   std::function<bool(const Vec3& point)> inside;
 };

@@ -7,19 +7,19 @@
 
 namespace bin_scenes {
 
-/// A cylinder that is free of the solid, inside a wall of facets.
+/// A cylinder without material, inside a wall of facets.
 struct RoundHole {
-  Vec3 center, axis;  ///< a point of the axis (m), and its direction
-  double radius;      ///< m, of the largest cylinder that touches no facet
-  double low, high;   ///< m along the axis from the centre: where the wall ends
+  Vec3 center, axis;  ///< a point of the axis (m), and the direction of the axis
+  double radius;      ///< m, radius of the largest cylinder that touches no facet
+  double low, high;   ///< m along the axis from `center`: where the wall begins and ends
 };
 
 /// Returns the holes, through or blind, whose walls are facets all around one axis, at least six and equally far from
-/// it. Threads and holes with a curved profile are none.
+/// it. Threads and holes with a curved profile are not returned.
 std::vector<RoundHole> round_holes(const MeshQuery& query);
 
-/// Cuts off what hulls have inside a hole, by planes that touch its cylinder. A hull that lies around more of the hole
-/// than one plane can follow to within `loss` (m) is cut into sectors first. What closes a blind hole stays.
+/// Removes from hulls what is inside a hole, by planes that touch its cylinder. A hull that surrounds more of the hole
+/// than one plane can follow to within `loss` (m) is cut into sectors first. The bottom of a blind hole stays.
 std::vector<Mesh> cleared(std::vector<Mesh> hulls, const RoundHole& hole, double loss);
 
 }  // namespace bin_scenes

@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// Shell of each triangle, numbered by first triangle: connected over vertices that triangles share.
+/// The shell of each triangle: triangles that share a vertex are in one shell. Shells are numbered by first triangle.
 struct Shells {
   std::vector<std::uint32_t> of_triangle;
   std::size_t count = 0;

@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// Axes of inertia; where two moments are equal the principal axes are no more special than others across the third,
-/// and the shape itself has to decide.
+/// Returns the principal axes and the model axes. If two moments of inertia are equal, the principal axes perpendicular
+/// to the third one are arbitrary, and axes that the shape suggests are added.
 std::vector<Vec3> candidate_axes(const PartModel& part);
 
 }  // namespace bin_scenes

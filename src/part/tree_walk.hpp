@@ -10,8 +10,8 @@
 
 namespace bin_scenes {
 
-/// Calls `use(position)` for the triangles of all leaves that are not left out, until it returns true. Returns whether
-/// it did. A node is left out with everything below it where `skip(index)` is true.
+/// Calls `use(position)` for the triangles of all leaves that are not skipped, until it returns true. Returns whether
+/// it did. A node for which `skip(index)` is true is skipped with all nodes below it.
 template <class Skip, class Use>
 bool any_leaf(const std::vector<MeshQuery::Node>& nodes, const Skip& skip, const Use& use) {
   if (nodes.empty()) return false;
@@ -34,8 +34,8 @@ bool any_leaf(const std::vector<MeshQuery::Node>& nodes, const Skip& skip, const
   return false;
 }
 
-/// Traverses the tree of a mesh: calls `use(triangle)` for the triangles of all leaves that are not `apart(box)` and
-/// whose parent nodes are not.
+/// Calls `use(triangle)` for the triangles of all leaves until it returns true, and returns whether it did. A node is
+/// skipped with all nodes below it if `apart(box)` is true for its box.
 template <class Apart, class Use>
 bool any_near(const MeshQuery& mesh, const Apart& apart, const Use& use) {
   const std::vector<MeshQuery::Node>& nodes = mesh.nodes();

@@ -8,8 +8,8 @@
 
 namespace bin_scenes {
 
-/// A triangle prepared for many nearest-point questions.
-/// Ericson 2005, "Real-Time Collision Detection", section 5.1.5, with the constant products taken out.
+/// A triangle prepared for many nearest-point queries.
+/// Ericson 2005, "Real-Time Collision Detection", section 5.1.5, with the constant products computed in advance.
 struct PreparedTriangle {
   Vec3 a, ab, ac, normal;
   double ab_ab, ab_ac, ac_ac;
@@ -42,7 +42,7 @@ struct PreparedTriangle {
 
  private:
   double longest_squared() const { return std::max({ab_ab, ac_ac, ab_ab - 2 * ab_ac + ac_ac}); }
-  /// An edge of a degenerate triangle may have no length.
+  /// Returns part / whole; 0 for an edge of a degenerate triangle without length.
   static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 };
 

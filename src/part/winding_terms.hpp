@@ -12,26 +12,26 @@
 
 namespace bin_scenes {
 
-/// Corner and edges: what point-triangle distance and solid angle need, side by side in memory in tree order.
+/// A corner and two edges of a triangle, for point-triangle distances and solid angles; stored in tree order.
 struct Corner {
   Vec3 a, ab, ac;
   std::uint32_t triangle;
 };
 
-/// Far field of a node's triangles: the first three terms of the expansion of the winding number about `center`
-/// (Barill et al. 2018, "Fast winding numbers for soups and clouds", section 3). With n dA the area element at
-/// center + x and M_jk the integral of x_j x_k over a triangle, only these contractions are ever needed:
+/// The far field of the triangles of a node: the first three terms of the expansion of the winding number about
+/// `center` (Barill et al. 2018, "Fast winding numbers for soups and clouds", section 3). With n dA the area element at
+/// center + x and M_jk the integral of x_j x_k over a triangle, these contractions suffice:
 struct Moments {
-  Vec3 center = Vec3::Zero();      // area-weighted
-  double reach = 0.0;              // from the centre to the farthest corner
+  Vec3 center = Vec3::Zero();      // area-weighted centroid
+  double reach = 0.0;              // distance from the centre to the farthest corner
   Vec3 area = Vec3::Zero();        // integral of n
   Mat3 first = Mat3::Zero();       // integral of n x^T
   Vec3 traces = Vec3::Zero();      // integral of 2 (n . x) x + |x|^2 n
   std::array<double, 10> cubic{};  // integral of (n . r)(x . r)^2 as a polynomial in r, see cubic_form
 };
 
-/// The expansion stands in for a node this many reaches away. Error below 3e-3 at worst, 3e-4 r.m.s.: far from changing
-/// "> 0.5".
+/// The expansion replaces the triangles of a node for points at least this many times `reach` away. Its error is at
+/// most 3e-3 (3e-4 r.m.s.), far too small to change the result of "> 0.5".
 constexpr double far_ratio = 3.0;
 
 inline double cubic_form(const std::array<double, 10>& c, const Vec3& r) {
@@ -53,7 +53,7 @@ inline void add_cubic(std::array<double, 10>& c, const Vec3& n, const Mat3& m) {
   c[9] += 2.0 * (n.x() * m(1, 2) + n.y() * m(0, 2) + n.z() * m(0, 1));
 }
 
-/// The terms of the triangles corners[begin, end).
+/// Returns the moments of the triangles corners[begin, end).
 inline Moments moments_of(const std::vector<Corner>& corners, std::size_t begin, std::size_t end) {
   Moments m;
   double total = 0.0;
@@ -80,11 +80,11 @@ inline Moments moments_of(const std::vector<Corner>& corners, std::size_t begin,
   return m;
 }
 
-/// Sum of solid angles of triangles seen from a point, as the angle of a product of complex numbers: one arc tangent
+/// Adds up solid angles of triangles seen from a point, as the angle of a product of complex numbers: one arc tangent
 /// for all instead of one each.
 class SolidAngles {
  public:
-  /// The tangent of half a triangle's angle (van Oosterom & Strackee 1983, "The solid angle of a plane triangle").
+  /// Adds a triangle, seen from p (van Oosterom & Strackee 1983, "The solid angle of a plane triangle").
   void add(const Corner& t, const Vec3& p) {
     const Vec3 a = t.a - p, b = a + t.ab, c = a + t.ac;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
@@ -108,7 +108,7 @@ class SolidAngles {
   int turns_ = 0;
 };
 
-/// 4 pi times the winding number of a far node's triangles.
+/// Returns 4 pi times the winding number of a far node's triangles about p.
 inline double far_solid_angle(const Moments& m, const Vec3& p) {
   const Vec3 r = m.center - p;
   const double inverse2 = 1.0 / r.squaredNorm(), inverse3 = inverse2 * std::sqrt(inverse2);

@@ -31,7 +31,7 @@ class DeviceWatch {
   void ask(double time, const Ages& ages, bool driven, bool states);
   /// States that the next steps end without an observation.
   void ask_nothing(bool states);
-  /// The steps have ended.
+  /// States that the steps have ended, and takes the observation that was requested for their end.
   void take();
   void note_states() { states_ = true; }
 
@@ -60,7 +60,7 @@ class DeviceWatch {
   WatchRules rules_;
   double window_;  ///< s
   WorldId world_ = 0;
-  std::vector<double> times_{0.0};  ///< s, by number of observation; the first entry means no observation
+  std::vector<double> times_{0.0};  ///< s, by number of observation: its time; entry 0 means no observation
   Ages ages_{};
   std::uint32_t rested_ = 0;  ///< bodies that last moved in this observation or earlier are at rest
   bool rest_anew_ = true, energy_anew_ = true, asked_ = false, observed_ = false, current_ = false, states_ = true;

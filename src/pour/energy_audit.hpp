@@ -71,9 +71,9 @@ class EnergyAudit {
   /// States that a body enters or is moved: its observation starts with this state.
   void enter(std::size_t body, const BodyState& state);
   void leave(std::size_t body) { bodies_[body].in = false, world_energy_.begin(); }
-  /// Observes all bodies at `time` (s). Bodies that never entered are left out, whatever their states. `driven`: moving
-  /// fixed bodies or a moving frame may have worked on the bodies since the last observation, so that all observations
-  /// start again.
+  /// Observes all bodies at `time` (s). Bodies that have never entered are not observed, whatever their states.
+  /// `driven`: moving fixed bodies or a moving frame may have worked on the bodies since the last observation, so that
+  /// all observations start again.
   void observe(double time, const std::vector<BodyState>& states, bool driven = false);
 
   const EnergyReport& worst() const { return worst_; }
@@ -102,7 +102,7 @@ class EnergyAudit {
   DisjointSets groups(const std::vector<Reach>& reaches) const;
   void compare_gains(DisjointSets& group, const std::vector<Reach>& reaches, double time);
   void compare_speeds(DisjointSets& group, const std::vector<Reach>& reaches, double seconds, double time);
-  /// The speed (m/s) from which a part is examined: its energy is then that of a gain that would be flagged.
+  /// Returns the speed (m/s) from which a part is examined: its energy then equals a gain that would be flagged.
   double least_speed(std::size_t body) const;
 
   const WorldDef& world_;

@@ -39,7 +39,7 @@ class HeapCore final : private HeapView {
   std::size_t index() const { return index_; }
   WorldId id() const { return id_; }
   Solver& solver() const { return solver_; }
-  double time() const { return time_; }  ///< s since the clock was started
+  double time() const { return time_; }  ///< s of simulated time since the clock was started
   const std::vector<BodyState>& states();
   /// Returns the time (s) that is left until Request::seconds; infinity if it is not set.
   double time_left() const;
@@ -75,13 +75,13 @@ class HeapCore final : private HeapView {
   enum class Place { waiting, in, escaped, no_room, removed };
   enum class Course { ahead, moving, over };  ///< state of the prescribed motions
 
-  /// Makes a world. `lifted`: bodies that get as large a mass as if a hand held them.
+  /// Asks the solver for the worst contact of the world since the last call, and records it.
   void note_worst();
-  void make_world(bool raised_walls, const std::vector<std::size_t>& lifted = {});
+  void make_world(bool raised_walls, const std::vector<std::size_t>& lifted = {});  ///< lifted bodies get a large mass
   void remake_world(const std::vector<std::size_t>& lifted, const std::vector<bool>& woken);
   std::vector<bool> dragged_by(const std::vector<std::size_t>& lifted, const Vec3& direction) const;
   void wake(const std::vector<bool>& bodies);
-  std::vector<bool> unverified() const;  ///< the bodies that moved in the last check
+  std::vector<bool> unverified() const;  ///< bodies that moved in the last check
   void let_go();                         ///< gives lifted bodies their own masses again
   bool is_kept(std::size_t body) const { return !kept_.empty() && kept_[body]; }
   bool is_kept(const ContactForce& force)
@@ -109,7 +109,7 @@ class HeapCore final : private HeapView {
   WatchRules rules() const;
   void take_observation();  ///< reads the observation of the device
   void begin_watch();       ///< starts the observation of a new world by the device
-  void leave_world();       ///< removes it
+  void leave_world();       ///< removes the world from the solver
   void restart_rest();
   void restart_watch();
   bool resting(std::size_t body) const;
@@ -138,7 +138,7 @@ class HeapCore final : private HeapView {
   Random random_;
   Settling settling_;
   double time_ = 0.0;
-  /// Steps of earlier worlds since the clock was started, less those of this world before that.
+  /// Number of steps of earlier worlds since the clock was started, minus the steps of this world before that.
   std::uint64_t earlier_steps_ = 0;
   bool fresh_ = false, walls_raised_ = false;
   bool poured_ = false;  ///< whether parts entered in the last slice of time
@@ -153,11 +153,11 @@ class HeapCore final : private HeapView {
   std::size_t moving_from_ = 0;
   std::vector<BodyState> states_;
   std::vector<Place> place_;
-  std::vector<std::size_t> waiting_;   ///< bodies that have not entered, the next one first
-  std::optional<DeviceWatch> device_;  ///< takes the place of the next two if the solver has a WorldWatch
+  std::vector<std::size_t> waiting_;   ///< indices of bodies that have not entered, the next one first
+  std::optional<DeviceWatch> device_;  ///< is used instead of the next two members if the solver has a WorldWatch
   RestWatch rest_;
   std::optional<EnergyAudit> audit_;  ///< audit of this settle()
-  WorstReport::Penetration deepest_;  ///< likewise
+  WorstReport::Penetration deepest_;  ///< deepest contact of this settle()
   std::uint64_t unresolved_impacts_ = 0;
 };
 

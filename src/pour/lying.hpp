@@ -14,21 +14,21 @@ namespace bin_scenes {
 class LyingPoses {
  public:
   explicit LyingPoses(const PartModel& part);
-  /// Returns the orientation that a part reaches which is let go in a random orientation and rolls slowly from face to
-  /// face until one carries it. The rotation about the vertical is uniform.
+  /// Returns the orientation that a part reaches if it is released in a random orientation and rolls slowly from face
+  /// to face until one of them supports it. The rotation about the vertical is uniform.
   Quat draw(Random& random) const;
 
  private:
   struct Face {
     Vec3 normal;      ///< outward, model frame
-    double distance;  ///< m, of its plane from the centre of mass
+    double distance;  ///< m, distance of its plane from the centre of mass
   };
   /// Returns the face through which a ray from the centre of mass leaves the hull.
   const Face& face_towards(const Vec3& direction) const;
   std::vector<Face> faces_;
 };
 
-/// The circle around a part as seen from above.
+/// The circle around a part as seen from above (bin frame).
 struct Footprint {
   Eigen::Vector2d center;
   double radius;  ///< m

@@ -67,12 +67,12 @@ inline constexpr const StageRow& row(Stage stage) {
 class HeapView {
  public:
   virtual ~HeapView() = default;
-  virtual bool all_in() const = 0;      ///< no part waits to enter
-  virtual bool all_slow() const = 0;    ///< no part moves as fast as a falling one
-  virtual bool all_rest() const = 0;    ///< all have been still for Pour::rest_window
+  virtual bool all_in() const = 0;      ///< whether no part waits to enter
+  virtual bool all_slow() const = 0;    ///< whether no part moves as fast as a falling one
+  virtual bool all_rest() const = 0;    ///< whether all have been still for Pour::rest_window
   virtual bool all_asleep() const = 0;  ///< whether the solver lets all bodies sleep
   virtual std::size_t count() const = 0;
-  virtual std::size_t still_for_less_than(double seconds) const = 0;  ///< parts that moved within the last `seconds`
+  virtual std::size_t still_for_less_than(double seconds) const = 0;  ///< number that moved within the last `seconds`
   virtual double rest_window() const = 0;                             ///< s
 };
 
@@ -115,16 +115,16 @@ class Settling {
   void enter(Stage stage, double time);
 
   Pour::Finish finish_;
-  bool ignored_ = false;                            ///< the solver has no stages
+  bool ignored_ = false;                            ///< whether the solver has no stages
   Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: the stage before `done`
-  double begun_ = 0.0;                              ///< s: start of the stage
-  double advanced_ = 0.0;                           ///< s: the last advance()
-  int checks_ = 0;                                  ///< times that probe or verify began
-  int rechecks_ = 0;                                ///< times that recheck began since the last of these
-  double poured_ = 0.0;                             ///< s: end of the pour
+  double begun_ = 0.0;                              ///< s: start of the present stage
+  double advanced_ = 0.0;                           ///< s: time of the last advance()
+  int checks_ = 0;                                  ///< number of times that probe or verify began
+  int rechecks_ = 0;                                ///< number of times that recheck began since the last of these
+  double poured_ = 0.0;                             ///< s: time at which the pour ended
   double checked_s_ = 0.0;
   bool gave_up_ = false;
-  double friction_ = 1.0;  ///< share of friction that holds; never rises again
+  double friction_ = 1.0;  ///< share of the coefficients of friction that acts; never rises again
 };
 
 }  // namespace bin_scenes

@@ -10,7 +10,7 @@
 
 namespace bin_scenes::python {
 
-/// The calls are those of Heap. Each waits for its end, and is refused as Session::run().
+/// Each call runs the function of Heap with this name, waits for its end, and is refused like Session::run().
 class HeapHandle {
  public:
   HeapHandle(std::shared_ptr<Session> session, const Request& request, const Poll& poll);

@@ -21,10 +21,10 @@ class ImageData {
   RangeImage image;
   std::vector<std::array<float, 3>>& points();
   std::vector<std::array<float, 3>>& normals();
-  /// Counts of 8 bits in a byte each.
+  /// Returns the counts of a picture of 8 bits, one byte per count.
   std::vector<std::uint8_t>& picture_bytes();
   bool has_gray() const;              ///< whether gray() may be called
-  std::vector<std::uint8_t>& gray();  ///< levels of gray_of()
+  std::vector<std::uint8_t>& gray();  ///< grey levels that gray_of() returns
 
  private:
   std::mutex mutex_;
@@ -32,12 +32,12 @@ class ImageData {
   std::vector<std::array<float, 3>> points_, normals_;
 };
 
-/// What is made of a scene in addition to its poses.
+/// Which data of a scene is made in addition to the poses.
 struct Wanted {
   bool images = true, grasps = false, gray = false;
 };
 
-/// Throws an input Error where the request has no grippers, but grasps are wanted.
+/// Throws an input Error if grasps are wanted, but the request has no grippers.
 Generator::Options options_of(const Wanted& wanted, const Request& request, const std::string& caller);
 
 struct SceneData {
@@ -47,9 +47,9 @@ struct SceneData {
   std::optional<SceneGrasps> grasps;
   std::shared_ptr<const LoadedRequest> loaded;
   std::vector<std::shared_ptr<ImageData>> images;
-  std::vector<std::array<double, 7>> poses;       ///< by part: x y z qx qy qz qw
-  std::vector<std::array<double, 6>> velocities;  ///< by part: linear, angular
-  std::vector<std::int32_t> ids, lines;           ///< by part
+  std::vector<std::array<double, 7>> poses;       ///< pose of each part: x y z (m), qx qy qz qw
+  std::vector<std::array<double, 6>> velocities;  ///< velocity of each part: linear (m/s), angular (rad/s)
+  std::vector<std::int32_t> ids, lines;           ///< id and part line of each part
 
   /// scene.json as the command line writes it; without images it has no block `truth`.
   std::string json() const;

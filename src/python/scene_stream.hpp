@@ -12,8 +12,8 @@
 
 namespace bin_scenes::python {
 
-/// A stream of scenes in order of their index. They depend on request, seed and index only, however many are made
-/// ahead.
+/// A stream of scenes in the order of their index. A scene depends only on request, seed and index, and not on the
+/// number of scenes that are made ahead.
 class SceneStream {
  public:
   /// @param ahead  largest number of finished scenes that wait, in addition to those in progress; 0: work pauses unless
@@ -26,16 +26,16 @@ class SceneStream {
   /// Returns the next scene; null after the last one and after stop(). Throws the error that occurred while it was
   /// made, which ends the stream.
   std::shared_ptr<SceneData> next(const Poll& poll);
-  /// Cancels what is in the making, and waits for its end. The scenes that wait are dropped.
+  /// Cancels the scenes that are being made, and waits until this is done. The scenes that wait are dropped.
   void stop();
-  /// Scenes that wait now.
+  /// Returns the number of scenes that wait now.
   std::size_t ready() const;
 
  private:
   struct State {
     std::deque<std::shared_ptr<SceneData>> ready;
     std::exception_ptr failed;
-    bool wanted = false;  ///< somebody waits in next()
+    bool wanted = false;  ///< whether a call of next() waits
   };
   std::shared_ptr<Session> session_;
   std::shared_ptr<State> state_;

@@ -20,14 +20,14 @@
 
 namespace bin_scenes::python {
 
-/// Asked 20 times a second while a call waits. What it throws cancels the job, and reaches the caller once that ended.
+/// A wait calls this function 20 times a second. If it throws, the job is cancelled, and the caller gets the exception.
 using Poll = std::function<void()>;
 
 class Session {
  public:
   using Job = std::function<void(Session&)>;
 
-  /// A child of fork() has no threads of its parent: there the session is left as it is, and all calls are refused.
+  /// Starts a session. In a child process of fork(), which has no threads of its parent, all calls are refused.
   static std::shared_ptr<Session> open();
 
   /// Does a job and waits for its end. Throws what the job throws, and an input Error at `caller` ("Heap.settle") if
@@ -35,21 +35,21 @@ class Session {
   void run(const std::string& caller, const Job& job, const Poll& poll);
   /// Starts a job, which must not throw, and returns its number. Throws like run() if the session refuses it.
   std::size_t start(const std::string& caller, Job job);
-  /// Until `until()` or the end of that job. Throws what poll throws, after the job was cancelled and has ended.
+  /// Waits until until() is true or the job ends. If poll() throws, cancels the job, waits for its end, and rethrows.
   void wait(std::size_t job, const std::function<bool()>& until, const Poll& poll);
-  void cancel(std::size_t job);  ///< without waiting; mutex() is not held
-  /// Cancels what is running, waits for its end, and lets go of generator and heaps. Twice is once.
+  void cancel(std::size_t job);  ///< does not wait; the caller must not hold mutex()
+  /// Cancels the running job, waits for its end, and destroys generator and heaps. A second call does nothing.
   void close();
   void refuse_if_closed(const std::string& caller) const;
-  /// A heap is destroyed in the session's thread, as soon as that is idle.
+  /// Destroys a heap in the thread of the session, when no job runs.
   void drop(const Heap* heap);
 
-  // For jobs, in the session's thread.
+  // Functions for jobs, to be called in the thread of the session.
   Generator& generator() { return *generator_; }
   RunHooks hooks() const;
-  Heap* keep(Heap&& heap);  ///< until drop() or the end of the session
+  Heap* keep(Heap&& heap);  ///< keeps it until drop() or the end of the session
 
-  /// Held while state that jobs share with callers is read or changed; changed() wakes those who wait().
+  /// To be locked while state that jobs and callers share is used; notify changed() to wake callers in wait().
   std::mutex& mutex() { return mutex_; }
   std::condition_variable& changed() { return changed_; }
   const std::atomic<bool>& cancelled() const { return cancel_; }
@@ -58,8 +58,8 @@ class Session {
   Session();
   ~Session() { close(); }
   void work();
-  Job next_job();                                            ///< empty at the end
-  void refuse_if_unusable(const std::string& caller) const;  ///< mutex() is held
+  Job next_job();                                            ///< returns an empty function at the end
+  void refuse_if_unusable(const std::string& caller) const;  ///< mutex() must be held
 
   const pid_t process_;
   mutable std::mutex mutex_;
@@ -68,13 +68,13 @@ class Session {
   std::map<const Heap*, std::unique_ptr<Heap>> heaps_;  ///< only the thread of the session uses them
   std::vector<const Heap*> dropped_;
   Job job_;
-  std::size_t started_ = 0, ended_ = 0;  ///< number of the last job; they differ while it runs
+  std::size_t started_ = 0, ended_ = 0;  ///< number of the last job that was started, or that ended
   bool closed_ = false;
   std::atomic<bool> cancel_{false};
   std::thread thread_;
 };
 
-/// Closes all sessions of this process: before the interpreter ends, while the libraries that they use are there.
+/// Closes all sessions of this process, before the interpreter ends and unloads the libraries that they use.
 void close_sessions();
 
 }  // namespace bin_scenes::python

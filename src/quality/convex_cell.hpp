@@ -19,7 +19,7 @@ class ConvexCell {
 
   struct Face {
     Plane plane;
-    int first, count;  ///< of loops(): its vertices, counter-clockwise seen from outside
+    int first, count;  ///< range of its vertices in loops_, counter-clockwise seen from outside
   };
   struct Edge {
     int vertex, face[2];
@@ -27,9 +27,9 @@ class ConvexCell {
   };
   const std::vector<Vec3>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
-  /// The vertices of faces for which `wanted` is not 0, and possibly further ones.
+  /// Returns the edges of the faces for which `wanted` is not 0, and possibly further ones.
   std::vector<Edge> edges(const std::vector<char>& wanted) const;
-  /// Vertex with the smallest coordinate along `direction`.
+  /// Returns the vertex with the smallest coordinate along `direction`.
   const Vec3& lowest(const Vec3& direction) const;
 
  private:
@@ -50,10 +50,10 @@ struct Separation {
   Vec3 point = Vec3::Zero();      ///< the point where the bodies touch last, before b is moved
 };
 
-/// Penetration depth of two convex cells: the nearest face of their Minkowski difference, found among the faces of
-/// either and the pairs of edges whose normal arcs cross (Gregorius 2013, "The separating axis test between convex
-/// polyhedra"). `common` lies in both, up to `slack`: the depth along a feature's normal is at least the distance from
-/// it to its plane, so that most features need no test. Returns early with some depth <= `enough` once it is known.
+/// Returns the penetration depth of two convex cells, from the faces of both and the pairs of edges whose normal arcs
+/// cross (Gregorius 2013, "The separating axis test between convex polyhedra"). `common`: a point in both, up to
+/// `slack` (m); the depth along a feature's normal is at least its distance from the feature's plane, so that most
+/// features need no test. Returns early with some depth <= `enough` (m) once it is known.
 Separation separation(const ConvexCell& a, const ConvexCell& b, const Vec3& common, double slack, double enough);
 
 }  // namespace bin_scenes

@@ -9,20 +9,20 @@
 
 namespace bin_scenes {
 
-/// The common segment of two triangles.
+/// The common segment of two triangles (frame of mesh a, m).
 struct Crossing {
-  Vec3 point;                                     ///< centre of the crossing
-  Aabb box;                                       ///< around it
-  std::array<std::size_t, 2> triangles = {0, 0};  ///< one triangle of a and one of b
+  Vec3 point;                                     ///< centre of the segment
+  Aabb box;                                       ///< bounding box of the segment
+  std::array<std::size_t, 2> triangles = {0, 0};  ///< indices of one triangle of a and one of b
 };
 
-/// Returns none if the triangles do not intersect, or are coplanar; their neighbours intersect then instead.
+/// Returns the common segment of two triangles; none if they are apart, or coplanar (then their neighbours intersect).
 std::optional<Crossing> crossing(const Facet& s, const Facet& t, double tolerance);
 
-/// Crossings of all triangles of a with all triangles of b, in the frame of a; `b_in_a` takes b's frame to a's.
+/// Returns the crossings of all triangles of a with all triangles of b, in the frame of a; `b_in_a`: pose of b there.
 std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance);
 
-/// Groups of crossings whose boxes touch, each in order: one group per closed curve of intersection.
+/// Returns groups of crossings whose boxes touch, as ascending indices: one group per closed curve of intersection.
 std::vector<std::vector<std::size_t>> connected(const std::vector<Crossing>& crossings, double tolerance);
 
 }  // namespace bin_scenes

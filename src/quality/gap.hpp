@@ -8,11 +8,11 @@
 
 namespace bin_scenes {
 
-/// Free distance along `down` (unit, bin frame; 0: none falls) of every resting part, in the order of `placed`; parts
-/// with nothing at all below them, and those not at rest, have an infinite one. Overlap does not hold a part by itself:
-/// the two are first moved apart by the shortest displacement, then the fall is measured, so that what overlaps
-/// sideways falls freely, and what overlaps from below is held at once.
-/// @param overlaps all that overlap, however little
+/// Returns the free distance (m) along `down` (unit vector, bin frame) of each part at rest, in the order of `placed`.
+/// It is infinite for parts with nothing below them, and for parts that are not at rest; none falls if `down` is 0.
+/// Overlap alone does not hold a part: the two parts are first moved apart by the shortest displacement, then the fall
+/// is measured. Thus a sideways overlap lets a part fall freely, an overlap with a part below holds it at once.
+/// @param overlaps  all pairs of parts that overlap, however little
 std::vector<double> free_falls(const std::vector<Placed>& placed, const std::vector<Overlapping>& overlaps,
                                const Request& request, const MeshQuery* bin_mesh, const Vec3& down);
 

@@ -9,8 +9,8 @@ namespace bin_scenes {
 
 struct OverlapSide {
   const MeshQuery& query;
-  bool closed = true;         ///< false: a sheet without an inside; it is solid behind the side that `front` sees
-  Vec3 front = Vec3::Zero();  ///< sheet only: a point before it, in its own frame
+  bool closed = true;         ///< false: an open surface, solid behind the side that faces `front`
+  Vec3 front = Vec3::Zero();  ///< open surface only: a point in front of it, in the frame of its mesh
 };
 
 Penetration overlap(const OverlapSide& a, const Pose& pose_a, const OverlapSide& b, const Pose& pose_b);

@@ -17,7 +17,7 @@ struct Placed {
   Aabb box;  ///< bin frame
 };
 
-/// Two parts, by their place in the list, that overlap; or touch by less than counts.
+/// Two parts, as indices into the list, that overlap, or that touch with less overlap than counts.
 struct Overlapping {
   std::size_t a, b;
   Penetration found;  ///< its direction moves b away from a

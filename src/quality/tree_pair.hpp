@@ -28,13 +28,13 @@ inline Aabb bounds(const TrianglePoints& t) {
   return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
 }
 
-/// A triangle of a placed mesh, with what is asked of it again and again.
+/// A triangle of a placed mesh, with its bounding box and normal, which are used again and again.
 struct Facet {
   Facet() = default;
   explicit Facet(const TrianglePoints& points, std::size_t triangle = 0)
       : points(points), box(bounds(points)), triangle(triangle) {}
 
-  /// Unit normal; 0 for a triangle without area. Computed on first use, because most facets intersect nothing.
+  /// Returns the unit normal; 0 for a triangle without area. Computed on first use: most facets intersect nothing.
   const Vec3& normal() const {
     if (!normal_) normal_ = (points[1] - points[0]).cross(points[2] - points[0]).normalized();
     return *normal_;
@@ -42,13 +42,13 @@ struct Facet {
 
   TrianglePoints points;
   Aabb box;
-  std::size_t triangle = 0;  ///< of the mesh
+  std::size_t triangle = 0;  ///< index of the triangle in the mesh
 
  private:
   mutable std::optional<Vec3> normal_;
 };
 
-/// The triangles of a leaf, moved by a pose: kept while the same leaf is used.
+/// The triangles of a leaf, transformed by a pose. They are kept while the same leaf is used.
 class PlacedLeaf {
  public:
   PlacedLeaf(const MeshQuery& query, const Pose& pose) : query_(query), pose_(pose) {}
@@ -74,7 +74,7 @@ class PlacedLeaf {
   std::array<Facet, MeshQuery::leaf_size> facets_;
 };
 
-/// A rigid motion ready to bound moved boxes: the box of a turned box (Ericson 2005, section 4.2.6).
+/// A rigid motion in the form that transforms bounding boxes: the box around a moved box (Ericson 2005, section 4.2.6).
 class BoxMotion {
  public:
   explicit BoxMotion(const Pose& pose) : turn_(pose.orientation), size_(turn_.cwiseAbs()), shift_(pose.position) {}
@@ -88,10 +88,10 @@ class BoxMotion {
   Vec3 shift_;
 };
 
-/// Traverses pairs of nodes depth first. `bound(box of a, box of b)`, each in the frame of its own mesh, is a number
-/// below which no pair of triangles of these nodes can be; a pair is entered if it is < limit(). Of two children, the
-/// one with the smaller bound is visited first. `leaf` is called with pairs of triangles, which are transformed by the
-/// poses.
+/// Traverses pairs of nodes of two trees, depth first. `bound(box of a, box of b)`, each box in the frame of its own
+/// mesh, returns a lower bound for all pairs of triangles of these nodes; a pair is entered if the bound is < limit().
+/// Of two children, the one with the smaller bound is visited first. `leaf` is called with pairs of triangles, which
+/// are transformed by the poses.
 template <class Bound, class Limit, class Leaf>
 void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, Bound&& bound, Limit&& limit,
           Leaf&& leaf) {

@@ -8,8 +8,8 @@
 
 namespace bin_scenes {
 
-/// Each shell is closed and its triangles face outward: where a ray from outside meets the mesh first, it meets a
-/// front. The fronts cover whatever the mesh covers.
+/// Returns whether only front sides are visible from outside: every shell is closed and its triangles face outward, so
+/// that a ray from outside first hits a front side. Front sides then cover the whole silhouette.
 bool shows_fronts_only(const Mesh& mesh);
 
 /// Returns for each triangle whether the whole mesh is behind its plane, so that the mesh does not occlude it. For

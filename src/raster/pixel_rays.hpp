@@ -19,7 +19,7 @@ class PixelRays {
     if (plain_) return {x_[column], y_[row], 1.0};
     return lens_.ray(static_cast<double>(column), static_cast<double>(row));
   }
-  /// The x of each ray of a row, and the y that all rays of the row have. Valid only without distortion and skew.
+  /// The x of each ray (z = 1) in a row, and the y of all rays in the row. Valid only without distortion and skew.
   const double* x() const { return x_.data(); }
   double y(int row) const { return y_[static_cast<std::size_t>(row)]; }
 

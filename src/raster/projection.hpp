@@ -1,5 +1,5 @@
-/// Projects meshes into the image of a pinhole camera, and sorts their triangles by the rows that they cover.
-/// drawing.hpp and spots.hpp draw from it.
+/// Projects meshes into the image of a pinhole camera, and sorts their triangles by the rows that they cover. The code
+/// in drawing.hpp and spots.hpp draws these triangles.
 #pragma once
 
 #include "bin_scenes/raster/lens.hpp"
@@ -13,29 +13,29 @@ namespace bin_scenes {
 
 class Projection {
  public:
-  static constexpr int band_rows = 16;  ///< the pixels of a band stay in the processor's cache
+  static constexpr int band_rows = 16;  ///< rows of a band; so few that its pixels stay in the processor's cache
 
-  /// A triangle and the pixels that it may touch, inclusive.
+  /// A triangle, and the range of rows and columns (inclusive) of the pixels that it may cover.
   struct Covering {
     std::uint32_t triangle;
     std::int16_t top, bottom, left, right;
   };
   struct Body {
     Scenery::Body placed;
-    Mat3 turn;   ///< mesh to camera
-    Vec3 place;  ///< m
+    Mat3 turn;   ///< rotation from the frame of the mesh to the camera frame
+    Vec3 place;  ///< m, origin of the mesh in the camera frame
     std::vector<ImageCorner> corners;
-    bool one_sided = false;  ///< all that is seen of it faces the camera
+    bool one_sided = false;  ///< only triangles that face the camera are visible, and only these are kept
     int first_band = 0;
     std::vector<std::vector<Covering>> bands;
   };
 
-  /// @param reach  pixels from the centre of a pixel to its farthest point that is needed; 0: centres only
+  /// @param reach  largest distance (pixels) of a point that is drawn from the centre of its pixel; 0: only centres
   Projection(const Lens& lens, double near, double far, double reach)
       : lens_(lens), nearest_(1.0 / near), farthest_(1.0 / far), reach_(reach + on_edge) {}
 
-  /// Of a body whose `placed` is set. False: the mesh reaches through the plane of the lens, or is not as whole as it
-  /// has to be.
+  /// Projects a body whose `placed` is set. Returns false if rays are required: the mesh reaches through the plane of
+  /// the lens, or, if `whole` is set, is only partly in the range of depths.
   bool place(Body& body, const Pose& mesh_in_camera, bool whole) const;
 
  private:

@@ -10,11 +10,11 @@ namespace bin_scenes {
 
 /// A corner of a triangle in the image.
 struct ImageCorner {
-  double u, v;  ///< pixel
+  double u, v;  ///< pixels, column and row
   double near;  ///< 1 / depth (1/m)
 };
 
-/// Rounding down and up without a call.
+/// Return x rounded down, or up, to an integer, without a library call.
 inline int down(double x) {
   const int whole = static_cast<int>(x);
   return whole - (whole > x ? 1 : 0);
@@ -24,11 +24,11 @@ inline int up(double x) {
   return whole + (whole < x ? 1 : 0);
 }
 
-/// A centre between two triangles belongs to both, whatever the rounding (pixel).
+/// Tolerance (pixels): a pixel centre on the common edge of two triangles counts as covered by both.
 constexpr double on_edge = 1e-9;
 
-/// Calls span(row, first, last) with the columns of each row, from `top` to `bottom`, whose pixel centres a triangle
-/// covers, edges included.
+/// Calls span(row, first, last) for each row from `top` to `bottom`, with the first and last column whose pixel centres
+/// the triangle covers, edges included.
 template <class Span>
 void for_spans(const ImageCorner* const (&corner)[3], int top, int bottom, int width, const Span& span) {
   const auto [low, high] = std::minmax({corner[0]->v, corner[1]->v, corner[2]->v});
@@ -41,7 +41,7 @@ void for_spans(const ImageCorner* const (&corner)[3], int top, int bottom, int w
       const ImageCorner &a = *corner[k], &b = *corner[k == 2 ? 0 : k + 1];
       const double below = std::min(a.v, b.v), above = std::max(a.v, b.v);
       if (row < below - on_edge || row > above + on_edge) continue;
-      const bool along = above - below <= on_edge;  // runs along the row
+      const bool along = above - below <= on_edge;  // the edge is parallel to the row
       const double share = along ? 0.0 : std::clamp((row - a.v) / (b.v - a.v), 0.0, 1.0);
       const double at = a.u + share * (b.u - a.u), other = along ? b.u : at;
       first = std::min(first, std::min(at, other));

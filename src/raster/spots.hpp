@@ -10,22 +10,22 @@
 
 namespace bin_scenes {
 
-/// A place of an image.
+/// A point of an image for which the nearest surface is wanted.
 struct Spot {
-  double u = 0.0, v = 0.0;  ///< pixel, at most SpotDrawing::reach from the centre of one
-  double near = 0.0;        ///< 1 / depth (1/m): only what is nearer is drawn, and is kept here
-  std::uint32_t face = Scenery::no_face;
+  double u = 0.0, v = 0.0;  ///< pixels, at most SpotDrawing::reach from the nearest pixel centre
+  double near = 0.0;  ///< in: only surfaces with larger 1 / depth (1/m) are drawn; out: that of the nearest surface
+  std::uint32_t face = Scenery::no_face;  ///< out: number of the face of that surface
 };
 
 class SpotDrawing {
  public:
-  static constexpr double reach = 0.6;
+  static constexpr double reach = 0.6;  ///< pixels, largest distance of a spot from the nearest pixel centre
 
-  /// @param near, far  m, depths that are drawn
+  /// @param near, far  range of depths that are drawn (m)
   SpotDrawing(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
 
-  /// False: rays are as quick for so few places, or have to see: lines do not stay straight, or a mesh reaches through
-  /// the plane of the lens. Nothing is drawn then.
+  /// Draws the nearest surface at each point. Returns false, without drawing, if rays are faster for so few points, or
+  /// if rays are required because of lens distortion or a mesh that reaches through the plane of the lens.
   bool draw(Spot* spots, std::size_t count) const;
 
  private:
@@ -37,11 +37,11 @@ class SpotDrawing {
 
   const Scenery& scenery_;
   Lens lens_;
-  Vec3 floor_;      ///< 1 / depth of the floor = floor . ray
-  double nearest_;  ///< 1 / depth
+  Vec3 floor_;      ///< 1/m; 1 / depth of the floor on a ray (z = 1) is floor_ . ray
+  double nearest_;  ///< 1/m, 1 / smallest depth that is drawn
   bool usable_;
   std::vector<Projection::Body> bodies_;
-  std::vector<std::size_t> triangles_in_;  ///< by band
+  std::vector<std::size_t> triangles_in_;  ///< number of triangles of all bodies in each band of rows
 };
 
 }  // namespace bin_scenes

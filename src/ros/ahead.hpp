@@ -17,7 +17,7 @@ namespace bin_scenes {
 
 class Ahead {
  public:
-  /// `depth`: scenes that wait at most. `publication` knows which of their images are wanted, and makes them.
+  /// `depth`: largest number of scenes that wait. `publication` makes those images of the scenes that have subscribers.
   Ahead(int depth, Publication& publication);
   ~Ahead();
   Ahead(const Ahead&) = delete;
@@ -29,7 +29,7 @@ class Ahead {
   /// Returns the next scene, and waits for it if it is not finished. Throws the error that occurred while it was made,
   /// or Error(cancelled).
   MadeScene take(const RunHooks& hooks);
-  std::size_t ready() const;
+  std::size_t ready() const;  ///< number of finished scenes
 
  private:
   void run();
@@ -42,8 +42,8 @@ class Ahead {
   std::exception_ptr failed_;  ///< error of the scene after those that are ready
   bool following_ = false, stop_ = false;
   Request request_;
-  std::size_t next_ = 0;  ///< index to make
-  std::atomic<bool> unwanted_{false};
+  std::size_t next_ = 0;               ///< index of the scene that is made next
+  std::atomic<bool> unwanted_{false};  ///< cancels the scene that is being made
   std::thread thread_;
 };
 

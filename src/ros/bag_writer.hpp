@@ -9,14 +9,14 @@
 
 namespace bin_scenes {
 
-/// Stamp of scene `index` in a bag: second `index` of the year 2025, because the same request has to give the same
-/// file, and because tools take a time near 0 for a simulated clock.
+/// Returns the stamp of scene `index` in a bag: second `index` of the year 2025. It is fixed, because the same request
+/// must give the same file; and it is not near 0, because tools treat such times as those of a simulated clock.
 ros::Time bag_stamp(std::size_t index);
 
-/// Writes one scene to a bag of its own: the topics, types and latching of a recording of the live node, every message
-/// with the same stamp. Written to a temporary name and renamed. `images`: none, or one for each sensor of the scene.
-/// `name_space`: of the topics, as of a node; /tf and /tf_static stay where they are. Throws an environment Error if
-/// the file cannot be written.
+/// Writes one scene to a bag with the topics, types and latching of a recording of the live node; all messages have the
+/// same stamp. The file is written under a temporary name and renamed. `images` is empty, or has one image for each
+/// sensor. `name_space` is put in front of relative topic names; /tf and /tf_static stay as they are. Throws an
+/// environment Error if the file cannot be written.
 void write_bag(const std::string& path, const Scene& scene, const LoadedRequest& loaded,
                const std::vector<RangeImage>& images, const ros::Time& stamp, const Frames& frames = {},
                const std::string& name_space = "");

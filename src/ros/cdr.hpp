@@ -69,9 +69,9 @@ std::vector<char> cdr_bytes(const Message& message) {
   return {buffer.getBuffer(), buffer.getBuffer() + cdr.getSerializedDataLength()};
 }
 
-/// "sensor_msgs/Image" -> "sensor_msgs/msg/Image".
+/// Returns the ROS 2 name of a message type: "sensor_msgs/Image" becomes "sensor_msgs/msg/Image".
 std::string ros2_type(const std::string& type);
-/// Full definition of a message of ROS 1, with those of its fields -> that of ROS 2.
+/// Converts the full definition of a ROS 1 message, including the types of its fields, to that of ROS 2.
 std::string ros2_definition(const std::string& type, const std::string& definition);
 
 }  // namespace bin_scenes

@@ -13,7 +13,7 @@ namespace bin_scenes {
 
 class Diagnostics {
  public:
-  /// Once a second, in the queue of `node`.
+  /// Publishes the state once a second, in a callback of the queue of `node`.
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& params, const SceneJobs& jobs,
               const Publication& publication, const Settings& settings);
 

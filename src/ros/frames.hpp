@@ -20,18 +20,18 @@ struct Frames {
   std::string prefix;  ///< prefix of the frames of parts and sensors, such as "left/", which distinguishes several bins
 };
 
-std::string part_frame(int id, const std::string& prefix = "");  ///< "part_0007"
-/// "<name>_optical_frame", the name as graph_name() spells it.
+std::string part_frame(int id, const std::string& prefix = "");  ///< such as "part_0007", with the prefix before it
+/// Returns "<name>_optical_frame" with the prefix before it; graph_name() makes the name of the sensor valid in ROS.
 std::string sensor_frame(const std::string& sensor, const std::string& prefix = "");
 
 geometry_msgs::Pose pose_message(const Pose& pose);
 geometry_msgs::Vector3 vector_message(const Vec3& v);
-/// The inverse. A quaternion of four zeros, the default of a message, is the identity.
+/// Returns the pose of a message. A quaternion of four zeros, which is the default of a message, is the identity.
 Pose pose_from(const geometry_msgs::Pose& message);
 
-/// One transform bin frame -> part frame for each part with a finite pose.
+/// Returns one transform from the bin frame to the part frame for each part with a finite pose.
 tf2_msgs::TFMessage part_transforms(const Scene& scene, const Frames& frames, const ros::Time& stamp);
-/// Parent -> bin frame, and bin frame -> optical frame for each sensor: what does not move with the scene.
+/// Returns the transforms that are the same for all scenes: parent to bin frame, and bin frame to each optical frame.
 tf2_msgs::TFMessage static_transforms(const Scene& scene, const Frames& frames, const ros::Time& stamp);
 
 }  // namespace bin_scenes

@@ -16,8 +16,8 @@ namespace bin_scenes {
 
 class GenerateAction {
  public:
-  /// All callbacks run in the queue of `node`, which nothing else may block: that is what makes a cancel quick.
-  /// `preempt`: a new goal cancels the earlier ones instead of waiting for them.
+  /// @param node  its queue runs all callbacks; nothing else may block this queue, so that a goal is cancelled quickly
+  /// @param preempt  whether a new goal cancels earlier ones instead of waiting for them
   GenerateAction(const ros::NodeHandle& node, SceneJobs& jobs, bool preempt);
 
  private:
@@ -31,12 +31,12 @@ class GenerateAction {
   void begin(Goal goal);
   void cancel(const Goal& goal);
   void send_feedback();
-  /// Goals that have not ended.
+  /// Returns the goals that have not ended.
   std::vector<Open> open();
 
   SceneJobs& jobs_;
   const bool preempt_;
-  std::vector<Open> open_;  ///< of the queue's thread, like all else here
+  std::vector<Open> open_;  ///< goals that may still run; used only in the thread of the queue
   Server server_;
   ros::WallTimer timer_;
 };

@@ -21,10 +21,10 @@ void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<Scen
 void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen,
                  const std::vector<Sensor>& sensors);
 
-/// The part that a call picks by a grasp. Throws an input Error if the grasp is none of that part, or not free.
+/// Returns the part that a call picks by its grasp. Throws an input Error if the grasp is of another part, or not free.
 PartPick picked_by(const SceneGrasps& all, const Request& request, const bin_scenes_msgs::PickPart::Request& asked);
 
-/// Fingers, cups and palms, green for the best score and red for none. Earlier markers are deleted.
+/// Returns markers of fingers, cups and palms, from green (best score) to red (score 0), and deletes earlier markers.
 visualization_msgs::MarkerArray grasp_markers(const std::vector<SceneGrasp>& grasps, const Request& request,
                                               const Frames& frames, const ros::Time& stamp);
 

@@ -26,28 +26,28 @@ struct ImageMessages {
 
 ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, const std::string& frame_prefix = "");
 
-/// Organised cloud in the optical frame: fields x y z normal_x normal_y normal_z intensity snr (float32) label
-/// (uint32); NaN where nothing was seen (REP 117), hence not dense.
+/// Returns an organised cloud in the optical frame with the fields x y z normal_x normal_y normal_z intensity snr
+/// (float32) and label (uint32). Points without a measurement are NaN (REP 117), so that the cloud is not dense.
 sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::Header& header);
 /// The cloud with an additional field `rgb` (float32 that contains 0x00rrggbb, as PCL and RViz read it): each part has
 /// the colour of its marker, and the bin is grey.
 sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const std_msgs::Header& header);
-/// 32FC1, metres along the optical axis, NaN where nothing is valid (REP 118). Of a lens that distorts, rectified: each
-/// pixel has the depth of the nearest one of the image as taken, moved on its surface.
+/// Returns depth along the optical axis (m) as 32FC1; NaN where it is not valid (REP 118). For a lens with distortion,
+/// the image is rectified: each pixel has the depth of the nearest measured pixel, extrapolated on its surface.
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header);
-/// 16UC1: 0 = background, part id + 1 otherwise; as taken.
+/// Returns labels as 16UC1: 0 is the background, otherwise part id + 1. The image is not rectified.
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);
-/// mono8: codes of scene/validity.hpp; as taken.
+/// Returns the codes of scene/validity.hpp as mono8. The image is not rectified.
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
-/// mono8: the grey image of a range sensor, which must have been made with it (gray_image.hpp); as taken.
+/// Returns the grey image of a range sensor as mono8. `image` must contain it (gray_image.hpp). It is not rectified.
 sensor_msgs::Image gray_message(const RangeImage& image, const std_msgs::Header& header);
-/// mono8, mono16, rgb8 or rgb16, as taken; none of a sensor that takes no picture.
+/// Returns the picture as mono8, mono16, rgb8 or rgb16, not rectified; empty if the sensor takes no picture.
 std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header);
-/// The same of a channel of the table.
+/// Returns the image of one channel of image_channels(); empty if `image` does not have this channel.
 std::optional<sensor_msgs::Image> channel_message(const ImageChannel& channel, const RangeImage& image,
                                                   const std_msgs::Header& header);
-/// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. None of a laser_line, whose
-/// rows are profiles: no camera model describes them. Throws an input Error unless K has 9 values.
+/// Returns the camera model of REP 104: K and D of the measured images, R = identity, P = [K | 0] of the rectified
+/// image. Empty for laser_line, to which no camera model applies. Throws an input Error unless K has 9 values.
 std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header);
 
 }  // namespace bin_scenes

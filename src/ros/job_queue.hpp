@@ -32,7 +32,7 @@ struct Outcome {
   bin_scenes_msgs::Scene scene;
 };
 
-/// Outcome of a job that threw the exception that is being handled.
+/// Returns the outcome of a job that has thrown an exception. To be called in the handler of the exception.
 Outcome outcome_of_exception();
 
 class Job {
@@ -40,23 +40,23 @@ class Job {
   using Work = std::function<Outcome(Job&)>;
   using Answer = std::function<void(const Outcome&)>;
 
-  /// `work` runs in the thread of the queue; `answer` is called once, there or in that of cancel().
+  /// `work` runs in the thread of the queue. `answer` is called once, in that thread or in the one that calls cancel().
   Job(std::string name, Work work, Answer answer);
 
   const std::string& name() const { return name_; }
   bool ended() const;
-  /// Ends the job as cancelled, for `reason`; false if it has ended or is past its commit.
+  /// Ends the job as cancelled, with `reason`. Returns false if the job has ended or is committed already.
   bool cancel(const std::string& reason);
 
-  // For its work.
-  /// Progress is kept for progress(); cancelling stops what is done under these hooks.
+  // Functions for `work`.
+  /// Returns hooks that store the progress of the job in its state, and that stop the work when the job is cancelled.
   RunHooks hooks();
-  /// From here on the job cannot be cancelled. Throws Error(cancelled) if it was before.
+  /// After this call, the job cannot be cancelled. Throws Error(cancelled) if it was cancelled before.
   void commit();
 
   struct State {
-    Progress progress;       ///< phase "queued" until it runs
-    double running_s = 0.0;  ///< s of wall time since it began
+    Progress progress;       ///< progress; its phase is "queued" until the job runs
+    double running_s = 0.0;  ///< wall-clock time since the job began (s)
   };
   State state() const;
 
@@ -68,7 +68,7 @@ class Job {
   const std::string name_;
   Work work_;
   Answer answer_;
-  std::atomic<bool> unwanted_{false};
+  std::atomic<bool> unwanted_{false};  ///< whether the job was cancelled
   mutable std::mutex mutex_;
   enum class Stage { waiting, running, committed, ended } stage_ = Stage::waiting;
   Progress progress_;
@@ -77,8 +77,8 @@ class Job {
 
 class JobQueue {
  public:
-  /// `at_end` is called in the thread of the jobs, after the last of them: what they made with OpenGL dies where it was
-  /// made.
+  /// `at_end` is called in the thread of the jobs after the last job, so that OpenGL objects are destroyed in the
+  /// thread that made them.
   JobQueue(std::size_t most_waiting, std::function<void()> at_end);
   /// Cancels all jobs.
   ~JobQueue();
@@ -87,10 +87,10 @@ class JobQueue {
 
   /// Throws an environment Error if too many jobs wait already.
   void add(std::shared_ptr<Job> job);
-  /// All that run or wait; returns how many.
+  /// Cancels all jobs that wait or run, and returns their number.
   std::size_t cancel_all(const std::string& reason);
-  std::size_t size() const;              ///< jobs that wait or run
-  std::shared_ptr<Job> running() const;  ///< null: none
+  std::size_t size() const;              ///< number of jobs that wait or run
+  std::shared_ptr<Job> running() const;  ///< the running job; null: none
 
  private:
   void run();

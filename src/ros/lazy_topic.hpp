@@ -20,17 +20,17 @@ struct LazyTopicOptions {
   ros::NodeHandle node;
   std::string name;
   std::function<void()> connected;  ///< called in the queue of `node` when a subscriber arrives; it should call show()
-  /// Subscribers of the same process get the message itself. roscpp writes out every message of a topic that it latches
-  /// (TopicManager::publish), so that this topic keeps the last one for later subscribers itself.
+  /// If true, subscribers in this process get the message without a copy. This class then stores the last message for
+  /// later subscribers, because roscpp serialises each message of a topic that it latches itself.
   bool in_process = false;
 };
 
-/// A plain latched publisher would send the message of an older scene to the first subscriber of a newer scene. This
-/// class forgets the message when the scene changes.
+/// A latched publisher of roscpp would send the message of an older scene to the first subscriber of a newer scene.
+/// This class discards the message when the scene changes.
 template <class Message>
 class LazyTopic {
  public:
-  /// @param make  returns the message of the present state, or none. Only one thread at a time may use the object.
+  /// @param make  returns the message of the present scene, or none. Only one thread at a time may use the object.
   LazyTopic(LazyTopicOptions options, std::function<std::optional<Message>()> make)
       : options_(std::move(options)), make_(std::move(make)) {
     advertise();
@@ -40,7 +40,7 @@ class LazyTopic {
 
   bool wanted() const { return publisher_.getNumSubscribers() > 0; }
 
-  /// Call when the state has changed: publishes the new message if there are subscribers, otherwise when one arrives.
+  /// To be called when the scene has changed: publishes the new message if there are subscribers, or when one connects.
   void renew() {
     const bool stale = last_ != nullptr;
     last_.reset();
@@ -49,7 +49,7 @@ class LazyTopic {
     publisher_.shutdown();  // nothing else makes roscpp forget what it keeps for later subscribers
     advertise();
   }
-  /// Publishes the message of the present state if that has not been done and there is a subscriber.
+  /// Publishes the message of the present scene if there is a subscriber and the message was not published yet.
   void show() {
     if (last_ || !wanted()) return;
     std::optional<Message> message = make_();
@@ -73,7 +73,7 @@ class LazyTopic {
   const LazyTopicOptions options_;
   std::function<std::optional<Message>()> make_;
   ros::Publisher publisher_;
-  boost::shared_ptr<Message> last_;  ///< message that was published for the present state; null: none yet
+  boost::shared_ptr<Message> last_;  ///< message published for the present scene; null: none yet
 };
 
 }  // namespace bin_scenes

@@ -12,7 +12,7 @@ namespace bin_scenes {
 
 class LiveConfig {
  public:
-  /// Served in the queue of `params`.
+  /// The callbacks of the server run in the queue of `params`.
   LiveConfig(const ros::NodeHandle& params, SceneJobs& jobs, Publication& publication);
 
  private:

@@ -10,9 +10,9 @@
 
 namespace bin_scenes {
 
-/// A deletion of everything older, then the parts (namespace "parts", marker id = part id, the model file as mesh
-/// resource scaled to metres, one colour each) and the bin (namespace "bin": its walls and floor as boxes, or its
-/// mesh).
+/// Returns a marker that deletes all older ones, then markers of the parts (namespace "parts", marker id = part id; the
+/// mesh resource is the model file, scaled to metres) and of the bin (namespace "bin": boxes for its walls and floor,
+/// or its mesh). Each part has its own colour.
 visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,
                                               const ros::Time& stamp);
 
@@ -21,18 +21,18 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRe
 visualization_msgs::MarkerArray following_markers(const LoadedRequest& loaded, const Frames& frames,
                                                   const ros::Time& stamp);
 
-/// Contacts as three lists: "contact_points", "contact_normals" (from the point towards part b) and "contact_forces"
-/// (on part b, friction included; the weight of the lightest part is drawn as long as half its diagonal, and no force
-/// longer than three diagonals). Points have the colour of their action. Normals and forces have the colour of the
-/// load: blue up to a tenth of that weight, red from a hundred times that weight on, on a logarithmic scale. Lists
-/// without contacts are deleted.
+/// Returns contacts as three lists of lines or points. "contact_normals" point to part b; "contact_forces" act on part
+/// b and include friction. A force equal to the weight of the lightest part is half the diagonal of this part long; no
+/// force is longer than three diagonals. Points have the colour of their action. Normals and forces have a colour for
+/// the force on a logarithmic scale, from blue (a tenth of this weight) to red (a hundred times it). Empty lists are
+/// deleted.
 visualization_msgs::MarkerArray contact_markers(const std::vector<SceneContact>& contacts, const LoadedRequest& loaded,
                                                 const Frames& frames, const ros::Time& stamp);
 
-/// Colour of what a contact does: green resting, yellow sliding, magenta pushed apart, red impact.
+/// Returns the colour of a contact: green at rest, yellow sliding, magenta pushed apart, red impact.
 std_msgs::ColorRGBA action_color(ContactAction action);
 
-/// Neighbouring ids get hues far apart: steps of the golden ratio round the colour circle.
+/// Returns the colour of a part. Hues are steps of the golden ratio, so that those of neighbouring ids differ strongly.
 std_msgs::ColorRGBA part_color(int id);
 std_msgs::ColorRGBA bin_color();
 

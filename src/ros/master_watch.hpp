@@ -15,16 +15,16 @@ namespace bin_scenes {
 
 class MasterWatch {
  public:
-  /// Asks the master once a second, in a thread of its own, whether it knows this process; one a process is enough.
+  /// Asks the master once a second in a separate thread whether it knows this process. One object per process suffices.
   MasterWatch();
   ~MasterWatch();
 
  private:
   void ask_master();
 
-  /// Services of this process; those that were offered in the last ten seconds may be missing.
+  /// Services of this process. The list is renewed every ten seconds, so that newer services may be missing.
   std::vector<std::string> services_;
-  std::size_t asked_ = 0;
+  std::size_t asked_ = 0;  ///< number of requests to the master
   ThreadQueue thread_;
   ros::WallTimer timer_;
 };

@@ -21,14 +21,14 @@ RosType ros_type_of() {
   return {ros::message_traits::datatype<Message>(), ros::message_traits::definition<Message>()};
 }
 
-/// Returns the name of `type` in a file of that profile.
+/// Returns the channel of a topic, with the type's name and definition in the form of the profile.
 McapChannel mcap_channel(McapProfile profile, const std::string& topic, const RosType& type, Latch latch,
                          const std::string& sender);
-/// States for rosbag2 that qualities of service are written as Humble does.
+/// Adds to the file that qualities of service are written in the form of ROS 2 Humble, which rosbag2 needs to know.
 void describe_profile(McapFile& file, McapProfile profile);
 
-/// An MCAP file of messages of ROS that a program sends itself. Profile ros1 has the bytes of a bag's messages, ros2
-/// the same messages as ROS 2 has them. The file appears with close().
+/// An MCAP file of ROS messages, as if a node of this program had sent them. With profile ros1, messages have the same
+/// bytes as in a bag; with ros2, they are in the form of ROS 2. The file gets its name with close().
 class McapRecording {
  public:
   McapRecording(const std::string& path, McapProfile profile) : file_(path, name_of(profile)), profile_(profile) {}

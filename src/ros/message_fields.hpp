@@ -14,7 +14,7 @@
 
 namespace bin_scenes {
 
-/// Names of the fields of a definition, in its order; those of messages inside of it follow its separator.
+/// Returns the names of the fields of a definition in their order, without those of the types that it contains.
 inline std::vector<std::string> field_names(const std::string& definition) {
   static const std::regex field(R"(\s*[\w/]+(\[\d*\])?\s+(\w+)\s*(#.*)?)");
   std::istringstream lines(definition);
@@ -25,12 +25,12 @@ inline std::vector<std::string> field_names(const std::string& definition) {
   return names;
 }
 
-/// A visitor of the fields of a message, in place of the stream with which ROS serialises it.
+/// Calls a function for each field of a message. It replaces the stream that the serialisers of roscpp write to.
 template <class Visit>
 struct FieldStream {
   const std::vector<std::string>& names;
   Visit& visit;
-  std::size_t at = 0;
+  std::size_t at = 0;  ///< index of the next field
 
   template <class Value>
   void next(Value& value) {

@@ -9,10 +9,10 @@
 
 namespace bin_scenes {
 
-/// Once: /tf_static, and on `markers` the bin and the parts, which follow their frames. With each sample: on /tf the
-/// frame of each part that is in, and on `contacts` the contacts of the step (contact_markers()). Stamps are those of
-/// the scene's other bag (bag_stamp()) plus the simulated time, for `rosbag play --clock` and RViz, or for Foxglove.
-/// The extension of `path` chooses the kind of file. Throws an environment Error where no file can be written.
+/// Returns a trace that writes a .bag or .mcap file, by the extension of `path`. At the start it writes /tf_static and
+/// the markers of the bin and the parts, which follow their frames. Each sample has on /tf the frames of the parts that
+/// have entered, and on `contacts` the contacts of the step (contact_markers()). Stamps are bag_stamp() plus the
+/// simulated time, for `rosbag play --clock` and Foxglove. Throws an environment Error if the file cannot be written.
 std::unique_ptr<Trace> message_trace(const std::string& path, const Request& request, McapProfile profile);
 
 }  // namespace bin_scenes

@@ -1,16 +1,16 @@
-/// The frames of a scene's parts on /tf.
+/// Publishes the frames of the parts of a scene on /tf.
 ///
-/// A tf2 buffer forgets what is older than its length (10 s unless set otherwise) before the newest stamp of a frame,
-/// and warns if one stamp comes twice. Transforms that are sent again and again under the present time would thus push
-/// out the stamp of the scene, under which its cloud is looked up. Therefore:
+/// A tf2 buffer stores the transforms of a frame for a fixed time (10 s by default) before the newest stamp, and warns
+/// if a stamp is repeated. If transforms were sent repeatedly with the present time, the stamp of the scene, at which
+/// its cloud is looked up, would soon be too old for the buffer. Therefore:
 ///
-///     scene shown     its stamp S
-///     at a set rate   S less some microseconds, and the present time, in one message; for a span below the buffers'
-///                     length, then no more
-///     late listener   the last of these messages, which is latched: it has S between its two stamps
-///     gone parts      once, as children of a frame that nothing connects to the bin: lookups of them fail at once
+///     new scene         transforms with its stamp S
+///     at a fixed rate   one message with transforms at some microseconds before S and at the present time; it ends
+///                       after a span that is shorter than the buffers
+///     late subscriber   the last of these messages, which is latched; S is between its two stamps
+///     removed parts     once, as children of a frame without connection to the bin, so that lookups fail at once
 ///
-/// So a part is found at S, at "the latest" (time 0), and at the present time within the span.
+/// A part is thus found at S, at the latest time (time 0), and at the present time within the span.
 #pragma once
 
 #include "frames.hpp"
@@ -28,15 +28,15 @@ namespace bin_scenes {
 
 class PartFrames {
  public:
-  /// The timer is served in the queue of `node`. `clock_changed`: called there when the clock has gone back, or has
-  /// begun; all that carries a stamp then needs a new one.
+  /// The timer runs in the queue of `node`. There, `clock_changed` is called when the ROS clock has jumped back or has
+  /// started, so that all messages need a new stamp.
   PartFrames(ros::NodeHandle node, std::string gone_frame, double rate, double span,
              std::function<void()> clock_changed);
 
-  /// Shows the parts of a scene: chooses its stamp, sends the transforms with it, and returns it. Stamps grow always,
-  /// even if the clock does not advance or has not started.
+  /// Shows the parts of a scene: chooses the stamp, publishes the transforms with it, and returns it. Each stamp is
+  /// later than the one before, even if the clock does not advance or has not started.
   ros::Time show(tf2_msgs::TFMessage parts);
-  /// (Hz), (s)
+  /// Sets the rate (Hz) at which transforms are repeated, and the time after a scene (s) for which they are repeated.
   void set(double rate, double span);
 
  private:
@@ -50,8 +50,8 @@ class PartFrames {
   double span_;
   tf2_msgs::TFMessage parts_;  ///< transforms with the stamp of the scene
   std::uint32_t repeats_ = 0;  ///< how often the transforms of this scene were repeated
-  ros::Time last_sent_;        ///< newest stamp on /tf; under another clock: none
-  ros::Time last_seen_;        ///< last time of the clock
+  ros::Time last_sent_;        ///< newest stamp on /tf; zero after the clock has jumped back
+  ros::Time last_seen_;        ///< time of the clock at the last call
   ros::Publisher tf_;
   ros::WallTimer timer_;
 };

@@ -20,23 +20,23 @@ namespace bin_scenes {
 
 class Publication {
  public:
-  /// `node` resolves the names of topics; its queue serves the timer of the frames. `in_process`: subscribers of this
+  /// `node` resolves the names of topics; its queue runs the timer of the frames. `in_process`: subscribers in this
   /// process get images without a copy (LazyTopic).
   Publication(const ros::NodeHandle& node, const Settings& settings, bool in_process);
   ~Publication();
 
-  /// Makes the images of a scene to come that somebody listens to, or all of them; in the calling thread.
+  /// Makes the images of a new scene that have subscribers, or all of them; in the calling thread.
   void render(MadeScene& made, bool all, const RunHooks& hooks);
-  /// Shows a scene under a new stamp, and returns it as published. If it throws, the scene before stays.
+  /// Publishes a scene under a new stamp, and returns its message. If it throws, the earlier scene remains published.
   bin_scenes_msgs::Scene show(MadeScene made);
-  /// Stamp of the scene that is shown, with which it is published again from time to time; zero: no scene is shown.
+  /// Returns the stamp of the published scene, which changes when it is published again; zero: there is no scene.
   ros::Time stamp();
   void set_tf(double rate, double span) { frames_.set(rate, span); }
   void set_publish_rate(double rate);
 
   struct Counts {
-    std::size_t scenes = 0;           ///< shown, since the start
-    std::size_t renderings = 0;       ///< images of scenes that were shown already, since the start
+    std::size_t scenes = 0;           ///< number of published scenes since the start
+    std::size_t renderings = 0;       ///< number of images made for scenes that were published already
     std::size_t render_failures = 0;  ///< number of images of the present scene that could not be made
     std::size_t sensors = 0;          ///< number of sensors of the present scene
   };
@@ -54,7 +54,7 @@ class Publication {
   void publish_again();
   void show_images();
   bool make_images(Shown& shown);
-  /// By sensor: whether somebody listens to one of its topics, and to that of its grey image.
+  /// By sensor: whether one of its topics has subscribers, and whether its topic of the grey image has.
   struct Wanted {
     std::vector<bool> images, gray;
   };

@@ -10,10 +10,10 @@ namespace bin_scenes {
 
 enum class Latch { no, yes };
 
-/// A topic as a node in that namespace has it: "cell", "/cell/"; names that begin with "/" stay where they are.
+/// Returns the name of a topic of a node in a namespace ("cell", "/cell/"); names that begin with "/" do not change.
 std::string recorded_name(const std::string& topic, const std::string& name_space);
 
-/// Gives each message of a scene to write(topic, message, latch). `images`: none, or one for each sensor of the scene.
+/// Calls write(topic, message, latch) for each message of a scene. `images`: empty, or one image for each sensor.
 template <class Write>
 void for_each_message(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images,
                       const ros::Time& stamp, const Frames& frames, const Write& write) {

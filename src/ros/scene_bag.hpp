@@ -17,7 +17,7 @@ namespace bin_scenes {
 /// An open bag under a temporary name, which close() renames.
 class SceneBag {
  public:
-  /// @param name_space of the topics, as recorded_name() takes it
+  /// @param name_space  is put in front of relative topic names (recorded_name())
   SceneBag(const std::string& path, const std::string& name_space);
   ~SceneBag();
   SceneBag(const SceneBag&) = delete;
@@ -38,7 +38,7 @@ class SceneBag {
 
   void close();
 
-  /// Does `work`; what rosbag throws is an environment Error that names `path`.
+  /// Calls `work`. Turns an exception of rosbag into an environment Error that names `path`.
   static void unharmed(const std::string& path, const std::function<void()>& work);
 
  private:

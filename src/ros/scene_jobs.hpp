@@ -18,14 +18,14 @@
 
 namespace bin_scenes {
 
-/// Settings that may change while the node runs (dynamic_reconfigure), in addition to the rates. Empty: as the request
-/// states.
+/// Settings that can be changed while the node runs (dynamic_reconfigure), in addition to the rates. An empty text
+/// leaves the value of the request unchanged.
 struct LiveSettings {
-  std::string finish;  ///< pour.finish
-  std::string solver;  ///< solver.type
-  bool noise = true;   ///< false: every random effect of the sensors is off
+  std::string finish;  ///< replaces pour.finish
+  std::string solver;  ///< replaces solver.type
+  bool noise = true;   ///< false: no random effects in images of sensors
 };
-/// Possible values of `finish` and `solver`. The first, "request", leaves the value of the request unchanged.
+/// Return the possible values of `finish` and `solver`. The first one, "request", keeps the value of the request.
 const std::vector<std::string>& live_finishes();
 const std::vector<std::string>& live_solvers();
 
@@ -35,13 +35,13 @@ class SceneJobs {
   /// Cancels all jobs.
   ~SceneJobs();
 
-  // Each adds a job to the queue and returns it; `answer` is called once, when it ends. Errors of a request are the
-  // job's outcome. Throw an environment Error if the queue is full.
+  // Each function adds a job to the queue and returns it. `answer` is called once, when the job ends; an error of the
+  // request becomes the outcome of the job. They throw an environment Error if the queue is full.
   using Answer = Job::Answer;
   std::shared_ptr<Job> generate(const bin_scenes_msgs::SceneRequest& request, Answer answer);
   std::shared_ptr<Job> pick(const bin_scenes_msgs::PickPart::Request& request, Answer answer);
   std::shared_ptr<Job> add(const bin_scenes_msgs::AddParts::Request& request, Answer answer);
-  /// Changes nothing. `response` and `markers` are filled before the answer, if it is a success.
+  /// Result of grasps(), which does not change the scene. It is complete before `answer` is called with a success.
   struct GraspAnswer {
     bin_scenes_msgs::GetGrasps::Response response;
     visualization_msgs::MarkerArray markers;
@@ -54,14 +54,14 @@ class SceneJobs {
   std::size_t cancel_all(const std::string& reason) { return queue_.cancel_all(reason); }
   void set(const LiveSettings& live);
 
-  /// For diagnostics.
+  /// The state of the jobs, for the topic /diagnostics.
   struct Status {
     std::size_t jobs = 0;                                            ///< number of jobs that wait or run
     std::string running;                                             ///< name of the running job; empty: none
-    double running_s = 0.0;                                          ///< s since it began
-    std::size_t made = 0, failed = 0, cancelled = 0, set_apart = 0;  ///< jobs that ended, since the start
-    std::size_t set_apart_in_a_row = 0;
-    std::size_t ahead = 0;                ///< scenes that wait for next_scene
+    double running_s = 0.0;                                          ///< time since it began (s)
+    std::size_t made = 0, failed = 0, cancelled = 0, set_apart = 0;  ///< number of jobs by outcome, since the start
+    std::size_t set_apart_in_a_row = 0;   ///< number of scenes that were set apart since the last accepted one
+    std::size_t ahead = 0;                ///< number of finished scenes for next_scene
     std::string device, solver, verdict;  ///< of the last scene: device, solver, and whether it was accepted
     bool accepted = true;
   };
@@ -84,7 +84,7 @@ class SceneJobs {
   Status status_;
   std::unique_ptr<SceneMaker> maker_;  ///< only the thread of the jobs uses it
   std::unique_ptr<Ahead> ahead_;
-  JobQueue queue_;  ///< last: its thread uses all of the above
+  JobQueue queue_;  ///< must be the last member, because its thread uses the others
 };
 
 }  // namespace bin_scenes

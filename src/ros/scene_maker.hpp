@@ -1,5 +1,5 @@
-/// Makes the scenes of one bin, and keeps the heap of the present scene so that parts can be removed and added. It
-/// stands between the services of the node and the library (pour/heap.hpp). It publishes nothing.
+/// Makes the scenes of one bin, and keeps the heap of the present scene so that parts can be removed and added. The
+/// services of the node use it; it uses the library (pour/heap.hpp), and publishes nothing.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
@@ -10,48 +10,48 @@
 
 namespace bin_scenes {
 
-/// A scene, with all that is needed to show it.
+/// A scene with all data that is needed to publish it.
 struct MadeScene {
   Scene scene;
-  LoadedRequest loaded;  ///< the request with the parts that were added; without the models of parts once it is stored
-  std::vector<RangeImage> images;  ///< one a sensor; RangeImage() until somebody subscribes (Publication)
+  LoadedRequest loaded;            ///< the request with the parts that were added; has no part models once it is stored
+  std::vector<RangeImage> images;  ///< one per sensor; each is empty until there is a subscriber (Publication)
   std::vector<bool> with_gray;     ///< by sensor: whether its image has a grey image
-  Request asked;               ///< the request that was poured first; next_scene follows it, whatever was added since
-  std::shared_ptr<Heap> heap;  ///< the heap of which it is a snapshot; null: the bin was emptied
+  Request asked;                   ///< the request of the first pour, without added parts; next_scene uses it
+  std::shared_ptr<Heap> heap;      ///< heap of which the scene is a snapshot; null: the bin was emptied
 };
 
-/// How parts are moved before they are removed.
+/// How parts are moved before they are removed from the heap.
 struct Lift {
-  Vec3 direction = Vec3::UnitZ();  ///< bin frame, any length
-  double distance = 0.0;           ///< m; 0: the parts are removed without being moved
+  Vec3 direction = Vec3::UnitZ();  ///< in the bin frame; need not have unit length
+  double distance = 0.0;           ///< distance (m); 0: the parts are removed without being moved
 };
 
-/// One thread at a time. All calls throw Error; those that make a scene leave the heap that is kept as it was, but for
-/// pick() and add(), which change it first and settle it then: settle() completes what was cancelled.
+/// Only one thread at a time may use it. All calls throw Error. If a call fails, the stored heap does not change,
+/// except for pick() and add(): they change it first and then settle it, and settle() completes what was cancelled.
 class SceneMaker {
  public:
-  /// A scene of its own, with a heap of its own.
+  /// Pours a new heap and returns its scene. The stored heap is not affected.
   MadeScene pour(const Request& request, const RunHooks& hooks);
 
-  /// From now on pick() and add() change the heap of this scene.
+  /// Stores the heap of a scene: from now on, pick() and add() change it.
   void keep(const MadeScene& scene);
 
   MadeScene pick(const std::vector<int>& ids, const Lift& lift, const RunHooks& hooks);
-  /// Onto the heap, or into the bin if it was emptied.
+  /// Pours parts onto the stored heap, or into the bin if it was emptied.
   MadeScene add(const std::vector<PartLine>& lines, const RunHooks& hooks);
   MadeScene settle(const RunHooks& hooks);
   /// Returns the present heap as a scene without judgement and images, for grasps().
   MadeScene heap_as_it_lies(const char* purpose) const;
-  /// What cameras see of them only if `images` are those of the scene.
+  /// Finds the grasps of a scene. Cameras are taken into account only if `images` contains the images of the scene.
   SceneGrasps grasps(const MadeScene& made, const std::vector<RangeImage>& images, const RunHooks& hooks) const;
-  /// Simulates the lift of up to `count` of these grasps, which are those of heap_as_it_lies(); with `all`, also of
-  /// blocked parts and of those that would slip.
+  /// Simulates the lift of up to `count` of the grasps of heap_as_it_lies(). If `all` is true, grasps of parts that are
+  /// blocked, and grasps that would slip, are included.
   void prove(SceneGrasps& grasps, MadeScene& made, std::size_t count, bool all, const RunHooks& hooks);
-  /// The empty bin of the scene that is kept.
+  /// Returns a scene with the empty bin of the stored scene.
   MadeScene emptied() const;
 
   bool has_scene() const { return has_scene_; }
-  /// What was poured, with the index of the scene; the heap has changed since, perhaps.
+  /// Returns the request of the first pour, with the index of the scene. The heap may have changed since then.
   const Request& asked() const { return asked_; }
 
  private:
@@ -64,8 +64,8 @@ class SceneMaker {
   std::shared_ptr<Heap> heap_;
   bool has_scene_ = false;
   LoadedRequest loaded_;  ///< the request of the stored scene
-  Request asked_;         ///< likewise: MadeScene::asked
-  Scene last_;            ///< without parts: seed, index, sensors
+  Request asked_;         ///< MadeScene::asked of the stored scene
+  Scene last_;            ///< seed, index and sensors of the stored scene, without parts
 };
 
 }  // namespace bin_scenes

@@ -8,16 +8,16 @@
 
 namespace bin_scenes {
 
-/// `request` is what the scene was made from: its bin and its hash go along.
+/// Converts a scene. `request` is the request from which it was made; the message also contains its bin and its hash.
 bin_scenes_msgs::Scene scene_message(const Scene& scene, const Request& request, const Frames& frames,
                                      const ros::Time& stamp);
 
-/// Filled from the table of the report's keys. Throws if the message has no field for a key.
+/// Converts a report by the table of its keys. Throws if the message has no field for a key.
 bin_scenes_msgs::SceneReport report_message(Report report);
 
 bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor);
 bin_scenes_msgs::Bin bin_message(const Bin& bin);
-/// "box", "mesh", "floor", "none": the value of `bin.kind` in messages.
+/// Returns the value of `bin.kind` in messages: "box", "mesh", "floor" or "none".
 const char* name_of(Bin::Kind kind);
 
 }  // namespace bin_scenes

@@ -1,4 +1,4 @@
-/// All that serves one bin: node and nodelet own one, or several in namespaces of their own.
+/// All threads and objects that serve one bin. A node or nodelet has one such object, or one per namespace.
 ///
 ///     thread        owns                              serves
 ///     control       action, rates, diagnostics        goals, cancels, the service cancel, timers: never blocks
@@ -17,15 +17,15 @@ namespace bin_scenes {
 
 class SceneServer {
  public:
-  /// In a nodelet, subscribers of the same process get clouds and images without a copy; for that the topics keep their
-  /// last message themselves instead of being latched by roscpp, which would write each message out at once.
+  /// In a nodelet, subscribers of the same process get clouds and images without a copy. For this, topics store their
+  /// last message themselves, because roscpp serialises each message of a topic that it latches.
   enum class Host { node, nodelet };
 
-  /// `node` resolves the names of topics and services, `params` those of parameters. `frame_prefix`: of its TF frames,
-  /// where several bins share a tree. Throws an input Error for a wrong parameter. Needs nobody to spin.
+  /// `node` resolves the names of topics and services, `params` those of parameters. `frame_prefix` begins the names of
+  /// frames if several bins share a TF tree. Throws an input Error for a wrong parameter. No spinner is needed.
   SceneServer(const ros::NodeHandle& node, const ros::NodeHandle& params, Host host = Host::node,
               const std::string& frame_prefix = "");
-  /// Cancels what is being made.
+  /// Cancels all jobs.
   ~SceneServer();
 
  private:

@@ -16,8 +16,8 @@ namespace bin_scenes {
 
 class SceneServices {
  public:
-  /// `cancel` is served in the queue of `node`, everything else one call at a time in a thread of its own: calls take
-  /// one place in the queue of jobs, between the goals, however many clients call.
+  /// The service `cancel` runs in the queue of `node`. All other services run one call at a time in a separate thread,
+  /// so that service calls occupy at most one place in the queue of jobs, however many clients there are.
   SceneServices(const ros::NodeHandle& node, SceneJobs& jobs);
   ~SceneServices();
 
@@ -33,7 +33,7 @@ class SceneServices {
 
   SceneJobs& jobs_;
   ThreadQueue calls_;
-  ros::Publisher grasps_;  ///< markers of what get_grasps returned last
+  ros::Publisher grasps_;  ///< markers of the grasps that get_grasps returned last
   std::vector<ros::ServiceServer> services_;
 };
 

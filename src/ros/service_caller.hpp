@@ -11,9 +11,9 @@ namespace bin_scenes {
 
 class ServiceCaller {
  public:
-  /// `header`: ros::ServiceEvent::getConnectionHeader() of the call, the very object; `service`: its resolved name.
+  /// @param header  the object that ros::ServiceEvent::getConnectionHeader() of the call returned, not a copy of it
   ServiceCaller(const std::string& service, const ros::M_string& header);
-  /// Its process has ended, or it has closed the connection. False where this cannot be determined.
+  /// Returns whether the client has ended or has closed the connection; false if this cannot be determined.
   bool gone() const;
 
  private:

@@ -12,33 +12,33 @@
 namespace bin_scenes {
 
 struct Settings {
-  /// ~bin_frame ("bin"), ~parent_frame ("world"; "" = the bin frame is the root of the tree) and ~bin_pose
-  /// ([x, y, z, qx, qy, qz, qw] in m, identity): where the bin stands in the user's cell. ~frame_prefix ("") goes
-  /// before the names of all frames but the parent's.
+  /// ~bin_frame ("bin"), ~parent_frame ("world"; "": the bin frame is the root of the tree), ~bin_pose ([x, y, z, qx,
+  /// qy, qz, qw] in m, default identity): pose of the bin in the parent frame. ~frame_prefix ("") is put before the
+  /// names of all frames except the parent frame.
   Frames frames;
-  /// ~tf_rate (Hz, 10) and ~tf_span (s, 8): how often and how long after a scene its part frames are sent again under
-  /// the present time. Consumers whose tf2 buffer is shorter than the span lose the scene's own stamp
-  /// (part_frames.hpp).
+  /// ~tf_rate (Hz, 10) and ~tf_span (s, 8): the rate at which the part frames of a scene are sent again with the
+  /// present time, and for how long. If the tf2 buffer of a consumer is shorter than the span, it loses the transforms
+  /// with the stamp of the scene (part_frames.hpp).
   double tf_rate = 10.0, tf_span = 8.0;
-  /// ~publish_rate (Hz, 0): > 0 publishes everything again at this rate, each time under a new stamp.
+  /// ~publish_rate (Hz, 0): if > 0, all topics are published again at this rate, each time with a new stamp.
   double publish_rate = 0.0;
-  /// ~model_roots (list of folders; default: the package's models): models and request files outside of them are
-  /// refused. Relative paths are searched in each of them.
+  /// ~model_roots (list of folders; default: the models of the package): models and request files outside of these
+  /// folders are refused. Relative paths are searched in each of them.
   PathRules paths;
-  /// ~request (path, ""): a request file to make a scene from at the start. Its folder is added to the model roots.
+  /// ~request (path, ""): request file of the scene that is made at the start. Its folder is added to the model roots.
   std::string request;
   /// ~goals ("queue"; or "preempt"): whether a new goal waits for the earlier ones or cancels them.
   bool preempt = false;
-  /// ~queue_size (16): jobs that may wait; further ones are refused.
+  /// ~queue_size (16): largest number of waiting jobs; further jobs are refused.
   int queue_size = 16;
-  /// ~scenes_ahead (0): scenes made ahead for next_scene, in a thread of their own.
+  /// ~scenes_ahead (0): number of scenes that are made in advance for next_scene, in a separate thread.
   int scenes_ahead = 0;
-  /// ~rgb (false): clouds carry a field `rgb`, the colour of each part's marker.
+  /// ~rgb (false): whether clouds have a field `rgb` with the colour of each part's marker.
   bool rgb = false;
 };
 
-/// `frame_prefix`: if ~frame_prefix is not set. Throws an input Error for a parameter of the wrong type or without
-/// sense.
+/// Reads the parameters. `frame_prefix` is used if ~frame_prefix is not set. Throws an input Error for a parameter of
+/// the wrong type or with an invalid value.
 Settings read_settings(const ros::NodeHandle& params, const std::string& frame_prefix);
 
 }  // namespace bin_scenes

@@ -22,7 +22,7 @@ class ThreadQueue {
 
   ros::CallbackQueue* queue() { return &queue_; }
   void post(std::function<void()> work) { queue_.addCallback(boost::make_shared<Task>(std::move(work))); }
-  /// Runs `work` there and waits for it; hands on what it returns or throws. Not from this thread itself.
+  /// Runs `work` in the thread, waits for it, and returns its result or rethrows. Not to be called from this thread.
   template <class Work>
   auto call(Work work) {
     const auto task = std::make_shared<std::packaged_task<decltype(work())()>>(std::move(work));
@@ -30,7 +30,7 @@ class ThreadQueue {
     post([task] { (*task)(); });
     return result.get();
   }
-  /// Running jobs are finished, waiting ones are dropped.
+  /// Ends the thread: waits for the function that is running, and drops the functions that are waiting.
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();

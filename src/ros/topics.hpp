@@ -25,18 +25,18 @@ constexpr char acquisition_done[] = "acquisition_done";
 constexpr char tf[] = "/tf";
 constexpr char tf_static[] = "/tf_static";
 
-/// Topic of one of `sensors` sensors: below its name, as graph_name() spells it. The only sensor, and that which is
-/// named "camera", have the plain topics. The order of sensors makes no difference.
+/// Returns the topic of a sensor: the plain topic if it is the only sensor or is named "camera", otherwise the topic
+/// below the name of the sensor as graph_name() spells it. `sensors` is the number of sensors.
 std::string of_sensor(const char* name, const std::string& sensor, std::size_t sensors);
 }  // namespace topic
 
-/// A scene as messages, all of one stamp; images are apart because they are made only if somebody looks.
+/// The messages of a scene, all with one stamp, without images, which are made only if there are subscribers.
 struct SceneMessages {
   bin_scenes_msgs::Scene scene;
   visualization_msgs::MarkerArray markers;
-  tf2_msgs::TFMessage parts;    ///< for /tf
-  tf2_msgs::TFMessage statics;  ///< for /tf_static
-  std_msgs::Header done;        ///< the event that ends an acquisition: stamp, and frame of the bin
+  tf2_msgs::TFMessage parts;    ///< transforms for /tf
+  tf2_msgs::TFMessage statics;  ///< transforms for /tf_static
+  std_msgs::Header done;        ///< message that signals the end of an acquisition: its stamp, and the bin frame
 };
 void set_stamp(SceneMessages& messages, const ros::Time& stamp);
 

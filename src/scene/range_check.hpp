@@ -20,7 +20,7 @@ struct Bin;
 struct BinKeys;
 struct Sensor;
 
-/// "at least 0 and at most 10", as messages state it; "" for `anything`.
+/// Returns the text of a range for messages, such as "at least 0 and at most 10"; "" for `anything`.
 std::string text_of(const Range& range);
 
 /// Throws an input Error at `path` unless `value` is finite and within the key's range.
@@ -29,7 +29,7 @@ void check_pose(const std::string& path, const Pose& pose);
 
 class RangeCheck {
  public:
-  /// @param prefix  of all paths: "", "parts[3]."
+  /// @param prefix  path of the struct, which begins all paths in messages, such as "" or "parts[3]."
   explicit RangeCheck(std::string prefix = "") : prefix_(std::move(prefix)) {}
 
   template <class Value>
@@ -44,7 +44,7 @@ class RangeCheck {
   void list(const Key& key, std::vector<Struct>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) nested(key.name + ("[" + std::to_string(i) + "]."), values[i]);
   }
-  void list(const Key&, std::vector<Sensor>&) {}  ///< their keys are those of models: check_sensors()
+  void list(const Key&, std::vector<Sensor>&) {}  ///< the sensor models check their keys: check_sensors()
   void bin_kind(Bin&, const BinKeys&) {}
 
  private:

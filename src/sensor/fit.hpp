@@ -11,14 +11,14 @@ namespace bin_scenes {
 struct BallFit {
   Vec3 center = Vec3::Zero();
   double radius = 0.0;
-  std::vector<double> residuals;  ///< distance from the centre - radius
+  std::vector<double> residuals;  ///< for each point: its distance from the centre, minus the radius (m)
 };
-/// NaN of fewer than four points.
+/// Fits a ball to the points. All values are NaN if there are fewer than four points.
 BallFit fit_ball(const std::vector<Vec3>& points);
 
 struct PlaneFit {
   Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
-  std::vector<double> residuals;  ///< along the normal
+  std::vector<double> residuals;  ///< for each point: its signed distance from the plane (m)
 };
 PlaneFit fit_plane(const std::vector<Vec3>& points);
 

@@ -11,8 +11,8 @@
 
 namespace bin_scenes {
 
-/// @param depth_of  (column, row, depth) -> depth; not finite: there is none
-/// @param none      code of pixels that have no depth then
+/// @param depth_of  function (column, row, measured depth) -> reported depth (m); not finite: no depth is reported
+/// @param none      validity code of the pixels for which no depth is reported
 template <class DepthOf>
 void report_depths(RangeImage& image, const DepthOf& depth_of, Validity none = Validity::decoding) {
   const auto width = static_cast<std::size_t>(image.width);

@@ -10,15 +10,15 @@
 
 namespace bin_scenes {
 
-/// A box around the origin.
+/// Returns a box that is centred on the origin. @param size  lengths of its edges (m)
 Mesh box_target(const Vec3& size);
-/// A ball around the origin: an icosahedron divided `level` times, 20 * 4^level triangles, whose mean radius over the
-/// surface is `radius`; at level 6 facets leave it by 4e-5 of the radius.
+/// Returns a ball around the origin: an icosahedron that is subdivided `level` times (20 * 4^level triangles), whose
+/// mean radius over the surface is `radius` (m). At level 6, its facets deviate from the sphere by 4e-5 of the radius.
 Mesh ball_target(double radius, int level = 6);
 
 class Targets {
  public:
-  /// @param pose  of the mesh in the world, which is the bin frame of sensors
+  /// Adds a target. @param pose  pose of the mesh in the world; the world frame is the bin frame of the sensors
   void add(const Mesh& mesh, const Pose& pose, const Surface& surface = {});
   void set_table(const Table& table) { request_.table = surfaces_.table = table; }
   Scenery scenery();
@@ -29,7 +29,7 @@ class Targets {
   Request request_;
   Scene scene_;
   std::vector<PartModelPtr> models_;
-  std::unique_ptr<SceneryCache> cache_ = std::make_unique<SceneryCache>();  // so that targets can be moved
+  std::unique_ptr<SceneryCache> cache_ = std::make_unique<SceneryCache>();  // on the heap: stays in place if this moves
   Surfaces surfaces_;
 };
 

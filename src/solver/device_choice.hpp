@@ -10,34 +10,34 @@
 
 namespace bin_scenes {
 
-/// Wall time of one step of a heap of `few` and of `many` parts alone, and of one of `few` parts among `worlds` that
-/// are advanced together.
+/// Wall times of one step (s): few_s and many_s of a single heap of `few` or `many` parts, and together_s of each of
+/// `worlds` heaps of `few` parts that are advanced together.
 struct StepTimes {
   double few_s = 0.0, many_s = 0.0, together_s = 0.0;
 };
 
-/// The times of a step that were measured on this machine, by device.
+/// The measured times of a step on the devices of this machine.
 struct DeviceFigures {
   static constexpr std::size_t few = 64, many = 384, worlds = 64;
-  std::string cpu, gpu;  ///< names
+  std::string cpu, gpu;  ///< names of the devices
   StepTimes on_cpu, on_gpu;
 };
 
 struct DeviceChoice {
   bool gpu = false;
-  std::string reason;  ///< with the figures that decided
+  std::string reason;  ///< cause of the choice, with the measured times
 };
 
-/// Predicts the times from the measured steps by a power law in the number of parts. Of several scenes, as
-/// many are advanced together as were measured. The GPU is taken if it needs less than 0.8 times as long, so that noise
-/// in near ties does not decide.
+/// Chooses the device by predicted times, which follow from the measured steps by a power law in the number of parts.
+/// Of several scenes, as many are advanced together as were measured. The GPU is chosen if it needs less than 0.8 times
+/// as long, so that noise in near ties does not decide.
 DeviceChoice choose_device(const DeviceFigures& figures, std::size_t parts, std::size_t scenes);
 
 /// Chooses the device for a request on this machine. Measures when a device is first needed, then reads the figures
 /// from the cache. Without a GPU nothing is measured, and no OpenGL context is made where no device file is found.
 DeviceChoice choose_device(const Request& request);
 
-/// Measures now, on the device that OpenGL provides. Throws an environment Error if there is none.
+/// Measures the times now, on the CPU and on the device that OpenGL provides. Throws an environment Error without one.
 /// @param share  size of the measured heaps relative to the standard size; tests use less than 1
 DeviceFigures measure_devices(double share = 1.0);
 

@@ -21,7 +21,7 @@ struct Steps {
   std::uint64_t count() const { return whole + (rest > 0.0 ? 1 : 0); }
 };
 
-/// A remainder below a millionth of a step is rounding and not time.
+/// Divides `seconds` into steps of `step` seconds. A remainder below a millionth of a step is a rounding error.
 inline Steps steps_in(double seconds, double step) {
   constexpr double rounding = 1e-6;
   Steps steps;
@@ -42,7 +42,7 @@ inline int step_cuts(double time_step, double gravity, double smallest_diagonal,
   return cuts > 1.0 ? static_cast<int>(std::min(cuts, most_cuts)) : 1;
 }
 
-/// Returns the flag with which the report states it. `key`: of the setting, "solver.sphere.time_step".
+/// Returns the flag that reports divided steps. `key`: name of the setting, for example "solver.sphere.time_step".
 inline Flag step_cut_flag(const std::string& key, double time_step, int cuts, double smallest_diagonal) {
   const auto milli = [](double value) { return formatted("%.4g m", 1e3 * value); };
   return {"time_step_cut",

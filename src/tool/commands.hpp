@@ -1,4 +1,4 @@
-/// The commands of the command line, each from its parsed options to its exit code. They throw Error.
+/// The commands of the command line. Each takes its parsed options and returns the exit code. They throw Error.
 #pragma once
 
 #include <optional>
@@ -7,26 +7,26 @@
 
 namespace bin_scenes {
 
-/// Beside these, an Error's kind is the exit code: 2 input, 3 environment.
+/// Exit codes in addition to those of errors: 2 for input errors and 3 for environment errors.
 enum ExitCode { exit_done = 0, exit_set_apart = 1, exit_interrupted = 130 };  ///< 130: SIGINT or SIGTERM, as shells say
 
 struct GenerateOptions {
   std::string request, out;
-  std::optional<std::string> seed, scenes, first, solver, seconds;  ///< overrides, judged like --set
+  std::optional<std::string> seed, scenes, first, solver, seconds;  ///< replace keys of the request, like --set
   std::vector<std::string> set;
   std::vector<std::string> formats = {"json"};
   std::optional<std::string> mcap;  ///< profile of MCAP files; none: ros1
-  std::string trace;                ///< CSV file; empty = none
-  double trace_rate = 100;          ///< Hz of simulated time
+  std::string trace;                ///< file of the trace; empty: none
+  double trace_rate = 100;          ///< samples per second of simulated time (Hz)
   bool overwrite = false;
-  bool verify = false;  ///< read every file of the scenes that are there
+  bool verify = false;  ///< reads all files of the existing scenes
   bool verbose = false;
 };
 int generate(const GenerateOptions& options);
 
 struct NewOptions {
   std::string part, unit, solid, sensor;  ///< sensor: name of a preset; empty: an ideal camera
-  std::optional<double> thickness;        ///< m, of an open surface
+  std::optional<double> thickness;        ///< thickness (m) of the walls of an open surface
   std::size_t count = 80;
   std::string out = "request.yaml";
   bool pour = true, overwrite = false;
@@ -35,15 +35,15 @@ int new_request(const NewOptions& options);
 
 struct InspectOptions {
   std::string model, unit, solid;
-  std::optional<double> chord, angle;  ///< m, rad
-  std::string hulls;                   ///< OBJ file for the convex hulls; empty = none
+  std::optional<double> chord, angle;  ///< tessellation: chord error (m), angle (rad)
+  std::string hulls;                   ///< OBJ file for the convex hulls; empty: none
   bool json = false;
 };
 int inspect(const InspectOptions& options);
 
 struct SymmetriesOptions {
   std::string model, unit, solid;
-  std::optional<double> tolerance_mm;  ///< none: 1 % of the size of the part
+  std::optional<double> tolerance_mm;  ///< tolerance (mm); none: 1 % of the size of the part
   std::string picture;                 ///< PNG file; empty: none
   bool json = false;
 };
@@ -51,16 +51,16 @@ int symmetries(const SymmetriesOptions& options);
 
 struct SensorOptions {
   std::string sensor;  ///< name of a preset, or a file of sensor keys
-  std::string plot;    ///< SVG file; empty = none
+  std::string plot;    ///< SVG file; empty: none
   bool json = false;
 };
 int sensor(const SensorOptions& options);
 
 struct RealismOptions {
   std::vector<std::string> files;               ///< files of a real camera
-  std::string request, sensor;                  ///< sensor: of the request; empty: its first one
-  std::string focal;                            ///< pixel; empty: that of the sensor
-  std::string scale = "0.001", unit = "0.001";  ///< m
+  std::string request, sensor;                  ///< sensor of the request; empty: its first one
+  std::string focal;                            ///< focal length (pixels); empty: that of the sensor
+  std::string scale = "0.001", unit = "0.001";  ///< scale: m per count of depth; unit: rounding step (m)
   std::vector<std::string> crop, set;
   bool json = false;
 };
@@ -68,15 +68,15 @@ int realism(const RealismOptions& options);
 
 struct DatasetOptions {
   std::string plan, out;
-  std::size_t workers = 0;  ///< 0: as many as cores
-  std::string shard;        ///< "i/n"; empty = all
+  std::size_t workers = 0;  ///< number of worker processes; 0: one per core
+  std::string shard;        ///< share of heaps as "i/n"; empty: all heaps
   bool json_progress = false;
 };
 int dataset(const DatasetOptions& options);
 
 struct VerifyOptions {
   std::string directory;
-  bool list = false;  ///< prints the invariants instead
+  bool list = false;  ///< prints the invariants and checks nothing
 };
 int dataset_verify(const VerifyOptions& options);
 
@@ -89,7 +89,7 @@ int dataset_merge(const MergeOptions& options);
 struct ToolkitOptions {
   std::string directory, name;
 };
-/// What bop_toolkit must know of a data set, to be pasted.
+/// Prints the settings of a data set for bop_toolkit, to be pasted into its code.
 int dataset_toolkit(const ToolkitOptions& options);
 
 struct SubmitOptions {
@@ -101,12 +101,12 @@ int dataset_submit(const SubmitOptions& options);
 
 struct AuditOptions {
   std::string directory, sensor, models;
-  std::string bin, up;              ///< "x,y,z"; empty: not given
-  std::optional<double> floor;      ///< m
-  std::size_t most = 0;             ///< heaps; 0: all
-  std::vector<std::string> limits;  ///< "key=value"
+  std::string bin, up;              ///< bin also "fitted"; empty: not given
+  std::optional<double> floor;      ///< height of the floor (m)
+  std::size_t most = 0;             ///< largest number of heaps; 0: all
+  std::vector<std::string> limits;  ///< limits as "key=value"
   double share = 0.05;              ///< share of the parts that may exceed a limit of overlap, gap or drift
-  std::string out;                  ///< HTML file; empty: none
+  std::string out;                  ///< HTML file of the report; empty: none
   bool json = false;
 };
 int audit(const AuditOptions& options);

@@ -9,11 +9,11 @@
 
 namespace bin_scenes {
 
-/// What may stand for the last of some words (those behind the program's name): one a line; a line "file:a,b" asks the
-/// shell for files whose names end in .a or .b, "file:" for any.
+/// Returns the possible completions of the last of `words` (the words after the program's name), one per line. A line
+/// "file:a,b" asks the shell for files that end in .a or .b; "file:" asks for any files.
 std::vector<std::string> completions(const CLI::App& app, const std::vector<std::string>& words);
 
-/// The script that a shell reads; it asks `bin_scenes complete`. Throws an input Error.
+/// Returns the completion script for a shell; it calls `bin_scenes complete`. Throws an input Error for unknown shells.
 std::string completion_script(const std::string& shell);
 
 }  // namespace bin_scenes

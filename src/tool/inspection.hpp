@@ -1,5 +1,5 @@
-/// What `inspect` states of a model, and the tables of it that its JSON and its text are both made from. inspect.cpp
-/// fills it in and prints it.
+/// The results of `bin_scenes inspect` for a model, and the tables of keys from which its JSON and text outputs are
+/// made. inspect.cpp fills in the results and prints them.
 #pragma once
 
 #include "bin_scenes/part/shape_error.hpp"
@@ -28,7 +28,7 @@ struct Inspection {
   std::size_t vertices = 0, triangles = 0, shells = 0;
   bool watertight = false;
   std::size_t open_edges = 0;
-  // An open surface has no volume, and none of these.
+  // An open surface has no volume and therefore none of the following.
   struct Mass {
     double volume = 0.0, area = 0.0;
     Vec3 center = Vec3::Zero();

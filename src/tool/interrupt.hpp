@@ -8,9 +8,9 @@
 
 namespace bin_scenes {
 
-/// The first of these signals sets the flag that is returned, which asks the job to stop. The second, or the end of the
-/// patience, ends the process with exit_interrupted: what does not stop by itself (a driver that compiles, a library
-/// that is not ours). Then `last_words` go to standard error; null: nothing.
+/// Returns a flag that the first SIGINT or SIGTERM sets, so that the command stops. A second signal, or the end of
+/// `patience_us`, ends the process with exit_interrupted, for work that cannot be stopped (a driver that compiles, an
+/// external library). `last_words` are then written to standard error; null: nothing is written.
 const std::atomic<bool>& stop_on_signals(suseconds_t patience_us, const char* last_words);
 
 }  // namespace bin_scenes

@@ -13,24 +13,24 @@ namespace bin_scenes {
 
 class ProgressBar {
  public:
-  /// Draws on standard error from half a second on: what is done sooner needs no bar.
-  /// @param ticking  a thread redraws while the caller is busy. Not for a process that forks and continues in the
-  /// child.
+  /// Draws on standard error, after the first half second: shorter jobs need no bar.
+  /// @param ticking  whether a thread redraws the bar while the caller is busy; not for a process that forks and
+  ///                 continues in the child.
   explicit ProgressBar(bool ticking = true);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// @param left  seconds, where the caller knows better than by the fraction and the time spent
+  /// @param left  remaining time (s), if the caller has a better estimate than the elapsed time and the fraction give
   void show(double fraction, const std::string& text, std::optional<double> left = std::nullopt);
-  /// A stage that reports nothing until it ends: shares of the whole job at its beginning and its end, by experience.
+  /// Begins a stage without reports of progress. `from`, `to`: typical fractions of the job at its beginning and end.
   void stage(double from, double to, const std::string& text);
-  void clear();  ///< before other text
+  void clear();  ///< erases the bar, before other text is printed
 
  private:
   using Clock = std::chrono::steady_clock;
   struct State {
-    double from = 0.0, to = 0.0;  ///< share of the job done, and at the end of the stage
+    double from = 0.0, to = 0.0;  ///< fraction of the job at the beginning and at the end of the stage
     std::string text;
     std::optional<double> left;
     Clock::time_point since;
@@ -40,7 +40,7 @@ class ProgressBar {
   void tick();
 
   bool terminal_;
-  double every_;  ///< s between lines where there is no terminal; 0: none
+  double every_;  ///< time between lines (s) if there is no terminal; 0: no lines
   bool ticking_, shown_ = false, over_ = false;
   Clock::time_point start_, last_;
   std::optional<State> state_;
@@ -49,8 +49,8 @@ class ProgressBar {
   std::thread thread_;
 };
 
-/// The line itself, at most `columns` wide, colours not counted. `fraction` below 0.001 is not known yet, then the time
-/// spent is used for the time left.
+/// Returns the text of the bar with at most `columns` characters, without those that set colours. `spent`: elapsed time
+/// (s). If `left` is not given, it follows from `fraction` and `spent`; a fraction below 0.001 is shown as unknown.
 std::string progress_line(double fraction, const std::string& text, double spent, std::optional<double> left,
                           std::size_t columns, bool colors);
 

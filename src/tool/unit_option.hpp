@@ -11,7 +11,7 @@
 
 namespace bin_scenes {
 
-/// Returns none if the option was not given.
+/// Returns the unit that the option states; empty if the option was not given.
 inline std::optional<Unit> unit_given(const std::string& text) {
   if (text.empty()) return std::nullopt;
   for (const auto& [name, unit] : names(Unit{}))

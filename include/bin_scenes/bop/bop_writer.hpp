@@ -28,7 +28,7 @@ struct BopOptions {
   /// far behind the measured surface, and every part where nothing was measured (bop_toolkit's rule for images of real
   /// cameras).
   double tolerance = 0.0;
-  std::vector<int> object_ids;  ///< by part line; empty: the numbers of bop_object_ids()
+  std::vector<int> object_ids;  ///< BOP's obj_id of each entry of Request::parts; empty: those of bop_object_ids()
 };
 /// Writes the folder `models` of a BOP data set: obj_<obj_id>.ply and models_info.json (mm) with the diameter and the
 /// symmetries. The symmetries are those of `given`, by part line, or otherwise those found on the mesh. With

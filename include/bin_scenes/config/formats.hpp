@@ -39,19 +39,19 @@ std::string bop_loss(const std::vector<Sensor>& sensors);
 struct SceneFormat {
   std::string name;  ///< a value of the option --formats and of the plan's key `outputs`
   enum class Needs {
-    scene,   ///< poses and report alone
-    images,  ///< what sensors see, if there are any
-    sensors  ///< it shows nothing but what a sensor sees
+    scene,   ///< it contains only poses and report
+    images,  ///< it contains images of the sensors, if the request has sensors
+    sensors  ///< it contains only images of sensors, so that the request must have sensors
   };
   Needs needs = Needs::scene;
   bool gray = false;  ///< whether it shows the grey images of range sensors
 };
-/// In the order of lists; those of this library, then those that the program has added.
+/// Returns all formats in the order of lists: those of this library, then those that the program has added.
 const std::vector<SceneFormat>& scene_formats();
-/// Null: unknown.
+/// Returns the format of that name; null if there is none.
 const SceneFormat* find_scene_format(const std::string& name);
 void add_scene_format(const SceneFormat& format);
-/// "json, pcd and ply". @param last  "and" or "or"; @param more  names that follow
+/// Returns a list such as "json, pcd and ply". @param last  "and" or "or"; @param more  names that follow
 std::string format_names(const char* last, const std::vector<std::string>& more = {});
 
 enum class McapProfile {

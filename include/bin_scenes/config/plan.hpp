@@ -80,7 +80,7 @@ class Plan {
   Request reference;               ///< the request of the plan, before any value is drawn
   std::vector<std::string> notes;  ///< decisions of the reader that the user should know
   std::string text;                ///< the text of the plan file
-  /// Digest of everything that determines a heap: all keys except `scenes`, the request and the models.
+  /// Digest of everything that determines a heap: the request, the models, and all keys of the plan except `scenes`.
   std::string sha256;
 
   /// Returns the number of scenes of the data set.

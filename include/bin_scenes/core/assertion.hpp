@@ -17,7 +17,7 @@ namespace bin_scenes {
 /// Whether BIN_SCENES_ASSERTIONS was set when the process started.
 extern const bool assertions_on;
 
-/// What a thread works on, for the message of a failed assertion. -1 stands for unknown, or the bin as `b` of a pair.
+/// The work of a thread, for the message of a failed assertion. -1: unknown or, for `b`, the bin.
 struct AssertionPlace {
   std::int64_t scene = -1;      ///< index of the scene
   std::int64_t step = -1;       ///< number of the solver's step, from 1

@@ -33,7 +33,7 @@ struct GraspColumns {
   double measured = 1.0;  ///< share of the contact that the best camera measured; 1 without images
 };
 
-/// Calls `use(name, value)` for each column.
+/// Calls use(name, value) for each column.
 template <class Use>
 void for_each_column(const GraspColumns& c, const Use& use) {
   use("safety", c.safety);
@@ -49,27 +49,27 @@ void for_each_column(const GraspColumns& c, const Use& use) {
 }
 
 struct SceneGrasp {
-  int part = 0;             ///< id
+  int part = 0;             ///< id of the part
   std::size_t gripper = 0;  ///< index into Request::grippers
   /// Index into PartGrasps::grasps; grasps that are equal by symmetry share it. None: found by the search in the scene.
   std::optional<std::size_t> grasp;
-  Pose pose;           ///< of the gripper in the bin frame
-  double width = 0.0;  ///< m, parallel
-  bool inner = false;  ///< parallel: the fingers press outwards, from within
+  Pose pose;           ///< pose of the gripper frame in the bin frame
+  double width = 0.0;  ///< parallel: distance of the surfaces that the pads touch (m)
+  bool inner = false;  ///< parallel: whether the fingers are in a hole and press outwards
   double force = 0.0;  ///< N: of each finger; of the vacuum after the loss by the gap under the lip
   double score = 0.0;  ///< 0..1: estimated chance that the lift succeeds, from the columns and the gripper's weights
   GraspColumns columns;
-  double friction = 0.0;  ///< smallest coefficient with which it lifts the part out; infinite: none suffices
-  /// Why the grasp is not free. Collisions are those of the gripper, grown by its clearance on all sides.
+  double friction = 0.0;  ///< smallest friction coefficient at which it lifts the part; infinite: none is enough
+  /// Reason why the grasp is not free. Collisions are those of the gripper, enlarged by its clearance on all sides.
   enum class Obstacle {
-    none,      ///< it is free
+    none,      ///< the grasp is free
     blocked,   ///< other parts obstruct the lift of the part: PartPick::blocked_by
-    slips,     ///< it cannot hold weight, load, inertia and the friction of the neighbours
+    slips,     ///< the grasp cannot hold weight, load, inertia and the friction at the neighbours
     approach,  ///< the gripper collides while it moves in from outside the bin
     closing,   ///< the fingers collide while they close
     lift       ///< the gripper collides while it moves out with the part
   } obstacle = Obstacle::none;
-  int other = -1;  ///< approach, closing, lift: id of the first part that it collides with, -1: the bin
+  int other = -1;  ///< for approach, closing, lift: id of the first part that the gripper hits; -1: the bin
 
   Aperture aperture() const { return {width, inner}; }
 
@@ -82,37 +82,37 @@ struct SceneGrasp {
 /// Result of the search for grasps of a part in the scene (Gripper::free_wanted).
 struct PartSearch {
   std::size_t gripper = 0;                                      ///< index into Request::grippers
-  std::size_t tried = 0;                                        ///< poses tried
-  std::size_t free = 0;                                         ///< free grasps found
+  std::size_t tried = 0;                                        ///< number of poses that were tried
+  std::size_t free = 0;                                         ///< number of free grasps that were found
   double least_tilt = std::numeric_limits<double>::infinity();  ///< rad: smallest tilt of an approach that was tried
 };
 
-/// What a lift of one part has to carry and to pass.
+/// The lift of one part: the forces that it needs, and the parts that obstruct it.
 struct PartPick {
   int id = 0;
   double load = 0.0;            ///< N: force of other parts downwards; 0 also if the solver reports no forces
-  double pull = 0.0;            ///< N to lift it out: weight, load, and friction of the contacts at its sides
+  double pull = 0.0;            ///< force (N) to lift it out: weight, load, and friction at the contacts on its sides
   Vec3 lift = Vec3::Zero();     ///< m, bin frame: displacement that moves it above all other parts. Straight up, unless
                                 ///< only another direction within Request::lift_cone is free
   std::vector<int> blocked_by;  ///< ids of parts that obstruct the lift or lie on the part, ascending; -1: a bin's mesh
-  /// Whether these parts cover so little of it (Request::slight_overlap) that its grasps are tried in spite of them.
+  /// Whether these parts cover so little of the part (Request::slight_overlap) that its grasps are tried nevertheless.
   bool slight = false;
   bool lifts() const { return blocked_by.empty() || slight; }
-  /// By how much the parts in `blocked_by` cover it, in a projection along gravity.
+  /// How much the parts in `blocked_by` cover the part, in a projection along gravity.
   struct Overlap {
-    double area = 0.0;         ///< m2
-    double share = 0.0;        ///< area / footprint of the part
+    double area = 0.0;         ///< covered area (m2)
+    double share = 0.0;        ///< covered area / footprint of the part
     Vec3 move = Vec3::Zero();  ///< m, horizontal: the shortest move found after which these parts do not cover it
     bool passes = false;       ///< whether the part meets no other part on this move; it may slide on its support
   } overlap;
-  std::vector<double> blocked_areas;  ///< m2 covered by each part of blocked_by
+  std::vector<double> blocked_areas;  ///< area (m2) that each part of blocked_by covers
   int depth = -1;          ///< number of rounds of picking before it can be lifted; -1: never, below something fixed
-  std::size_t tilted = 0;  ///< grasps left out because their approach is tilted by more than Gripper::tilt
+  std::size_t tilted = 0;  ///< number of grasps left out because their approach is tilted by more than Gripper::tilt
   std::vector<PartSearch> searches;  ///< one for each gripper, if the part can be lifted
 };
 
 struct SceneGrasps {
-  std::vector<SceneGrasp> grasps;  ///< by part, then gripper, then score, the best first
+  std::vector<SceneGrasp> grasps;  ///< sorted by part, then by gripper, then by score, the best first
   std::vector<PartPick> parts;     ///< in the order of the scene
   /// The ids of all parts. Each part comes after the parts that block it, except within a set of `held_sets`. Of
   /// several parts that nothing blocks, the highest one comes first; parts that can never be lifted come last.
@@ -120,22 +120,22 @@ struct SceneGrasps {
   /// A part that is lifted although others of its set still cover it.
   struct Forced {
     int part = -1;
-    double overlap = 0.0;  ///< m2 that they cover
+    double overlap = 0.0;  ///< area (m2) of the part that they cover
   };
   /// Parts that block each other in a circle. Two parts are lifted together. Of a larger set, the part that the others
   /// cover least is lifted first, although they cover it; then those that this frees, and so on.
   struct HeldSet {
-    std::vector<int> ids;        ///< in the order of removal
-    std::vector<Forced> forced;  ///< of a set of more than two parts, in the order of removal
-    int part = -1, by = -1;      ///< the pair with the smallest overlap: `part` is covered by `by`
-    double overlap = 0.0;        ///< m2, of that pair
+    std::vector<int> ids;        ///< ids of the set, in the order of removal
+    std::vector<Forced> forced;  ///< for a set of more than two parts: the forced lifts, in the order of removal
+    int part = -1, by = -1;      ///< pair with the smallest overlap: `by` covers `part`
+    double overlap = 0.0;        ///< overlap of that pair (m2)
   };
   std::vector<HeldSet> held_sets;
-  /// The search for grasps of a part alone, for each part line and gripper.
+  /// Result of the search for grasps of a part alone, for one part line and one gripper.
   struct Found {
     std::size_t line = 0, gripper = 0;  ///< indices into Request::parts and Request::grippers
-    std::size_t grasps = 0;             ///< number of PartGrasps::grasps
-    std::size_t placed = 0;             ///< number of PartGrasps::placed
+    std::size_t grasps = 0;             ///< number of grasps (PartGrasps::grasps)
+    std::size_t placed = 0;             ///< number of poses (PartGrasps::placed)
     double coverage = 0.0;              ///< PartGrasps::coverage
     GraspCounts counts;
   };
@@ -143,19 +143,19 @@ struct SceneGrasps {
 };
 
 const char* name_of(SceneGrasp::Obstacle obstacle);
-/// Why the grasp is not free, as text: "gripper meets part 7: approach"; empty if it is free.
+/// Returns the reason why a grasp is not free, such as "gripper meets part 7: approach"; empty if it is free.
 std::string reason_of(const SceneGrasp& grasp, const PartPick& part);
-/// Flags for grippers that have no grasp of a part at all, with the reasons, and for palms that do not fit into the
-/// bin.
+/// Returns flags for grippers that have no grasp of a part at all, with the reasons, and for palms that do not fit into
+/// the bin.
 std::vector<Flag> flags_of(const SceneGrasps& grasps, const Request& request);
 
-/// Finds grasps in scenes, and keeps the grasps of the parts alone from one scene to the next. Thread-safe.
+/// Finds grasps in scenes, and keeps the grasps of the parts between scenes. May be used by several threads.
 class Grasper {
  public:
   Grasper();
   ~Grasper();
-  /// Grasps by all grippers of the request of all parts that are in the scene and not fixed.
-  /// @param images  of the scene, by sensor; none: nothing is reported as seen or measured
+  /// Returns the grasps of all parts that are in the scene and are not fixed, for all grippers of the request.
+  /// @param images  images of the scene, by sensor; empty: no grasp counts as seen or measured
   SceneGrasps find(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images) const;
 
  private:

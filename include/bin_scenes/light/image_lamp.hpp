@@ -22,14 +22,14 @@ struct ImageLamp {
   /// Only the ratios between lamps matter. For a projector, it is the radiance of a white surface at 1 m.
   double radiance = 1.0;
   Vec3 colour = Vec3::Ones();  ///< factors of the radiance for red, green and blue
-  double width = 0.3;          ///< area: m along x
-  double height = 0.3;         ///< area: m along y
-  double outer = 0.06;         ///< ring: radius (m)
-  double inner = 0.045;        ///< ring: radius (m)
+  double width = 0.3;          ///< area: size along x (m)
+  double height = 0.3;         ///< area: size along y (m)
+  double outer = 0.06;         ///< ring: outer radius (m)
+  double inner = 0.045;        ///< ring: inner radius (m)
   double horizon = 0.5;        ///< dome: radiance at the horizon and below it / radiance at the zenith
-  std::string picture;  ///< dome: file of an equirectangular picture; none: an even gradient from horizon to zenith
-  std::string picture_sha256;  ///< digest of the bytes of that file which the reader saw; empty if not known
-  double turn = 0.0;           ///< dome: rad, rotation of the picture about the vertical
+  std::string picture;         ///< dome: file of an equirectangular image; none: a gradient from horizon to zenith
+  std::string picture_sha256;  ///< digest of the bytes of that file that the reader saw; empty: not known
+  double turn = 0.0;           ///< dome: rotation of the image about the vertical (rad)
 };
 
 }  // namespace bin_scenes

@@ -15,19 +15,19 @@ namespace bin_scenes {
 
 /// The optical surfaces of a scene.
 struct Surfaces {
-  std::vector<Surface> lines;  ///< by part line
+  std::vector<Surface> lines;  ///< surfaces of the part lines
   Surface bin;
-  /// Where a part lies, and the random key of its texture: in these, its surface differs from those of other parts of
-  /// the same line.
+  /// The pose of a part, and the random key of its texture. By these two, its surface differs from the surfaces of
+  /// other parts of the same line.
   struct Place {
     Pose to_part;       ///< from the bin frame to the frame of the part
     Vec3 longest;       ///< unit vector, longest axis of the part in the part's frame
     std::uint64_t key;  ///< key of the random numbers of its texture
   };
-  /// By label. Empty: surfaces have no texture, and Surface::along is in the bin frame.
+  /// One entry for each label. Empty: surfaces have no texture, and Surface::along is in the bin frame.
   std::vector<Place> places = {};
   Table table = {};
-  std::uint64_t table_key = 0;  ///< key of the random numbers of its patches
+  std::uint64_t table_key = 0;  ///< key of the random numbers of the table's patches
 
   /// Returns the surface of a part line, of the bin if `line` is -1, or of the table if it is Scenery::table_line.
   const Surface& of(std::int32_t line) const {

@@ -27,7 +27,7 @@ struct LoadOptions {
   double weld = 1e-6;      ///< vertices closer than weld * diagonal become one vertex
   double max_hole = 0.02;  ///< holes whose perimeter is below max_hole * diagonal are closed; 1 closes every hole
   std::optional<double> thickness;  ///< m: if given, an open surface becomes a shell of this thickness
-  Tessellation tessellation;        ///< STEP, IGES
+  Tessellation tessellation;        ///< only for STEP and IGES
   std::string solid;           ///< STEP, IGES: name of the solid to use; empty: all solids, which must touch each other
   bool require_closed = true;  ///< false: an open mesh is reported instead of refused (for inspect and for bins)
 };

@@ -20,7 +20,7 @@ struct SceneOutput {
   const Scene& scene;
   const LoadedRequest& loaded;
   const std::vector<RangeImage>& images;
-  const SceneGrasps* grasps = nullptr;  ///< null: none were searched
+  const SceneGrasps* grasps = nullptr;  ///< null: no grasps were searched
   McapProfile mcap = McapProfile::ros1;
 };
 

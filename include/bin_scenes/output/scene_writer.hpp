@@ -91,7 +91,7 @@ const BagWriter& bag_writer();
 using McapWriter = std::function<void(const std::string& path, McapProfile, const Scene&, const LoadedRequest&,
                                       const std::vector<RangeImage>&)>;
 void register_mcap_writer(McapWriter writer);
-/// Empty without ROS.
+/// Returns the registered function; empty in a program without ROS.
 const McapWriter& mcap_writer();
 /// Returns the profile that an MCAP file names in its header; empty if the file is not an MCAP file.
 std::string mcap_profile_in(const std::string& path);

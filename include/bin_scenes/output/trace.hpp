@@ -17,7 +17,7 @@ namespace bin_scenes {
 
 /// The scene at one moment of simulated time.
 struct TraceSample {
-  double time = 0.0;  ///< s since the scene began
+  double time = 0.0;  ///< simulated time since the scene began (s)
   /// All parts with id, pose (bin frame; not finite if the part is not in the bin yet) and velocity.
   std::vector<ScenePart> parts;
   /// The contacts of the step that ends at this time; only for a trace that shows_contacts().
@@ -33,7 +33,7 @@ class Trace {
   /// Called once before the first sample, as soon as the models are loaded.
   virtual void begin(const LoadedRequest& /*loaded*/) {}
   virtual void add(const TraceSample& sample) = 0;
-  /// Completes the file. Before this call, it does not exist under its name.
+  /// Completes the file and gives it its name.
   virtual void finish() = 0;
 };
 

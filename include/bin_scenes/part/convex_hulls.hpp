@@ -16,7 +16,7 @@ struct HullOptions {
   double max_error = 0.01;         ///< largest error of the surface / diagonal
   double max_volume_error = 0.05;  ///< largest excess of the volume of the union of the hulls / volume of the mesh
   int max_hulls = 64;
-  int max_vertices = 64;  ///< of one hull; a convex part for which they do not suffice gets up to eight times as many
+  int max_vertices = 64;  ///< limit for one hull; a convex part that needs more gets up to eight times as many
 };
 
 /// The hulls, and how well they fit.

@@ -10,14 +10,14 @@
 
 namespace bin_scenes {
 
-/// The grid with its values, in the model frame.
+/// A regular grid in the model frame with the signed distance at each node.
 struct DistanceField {
   Vec3 origin = Vec3::Zero();  ///< position of node (0, 0, 0) in the model frame (m)
-  double cell = 0.0;           ///< m, edge length of a cell
+  double cell = 0.0;           ///< edge length of a cell (m)
   /// Numbers of nodes along x, y and z.
   std::array<int, 3> nodes = {0, 0, 0};
-  std::vector<float> values;  ///< m; nodes[0] * nodes[1] * nodes[2] values, x fastest
-  bool coarsened = false;     ///< the cell is larger than requested, because of max_nodes
+  std::vector<float> values;  ///< distances (m); nodes[0] * nodes[1] * nodes[2] values, x fastest
+  bool coarsened = false;     ///< whether the cell is larger than requested, because of max_nodes
 
   float at(int x, int y, int z) const {
     return values[static_cast<std::size_t>(x) +

@@ -8,11 +8,11 @@ namespace bin_scenes {
 
 /// Mass properties at a density of 1 kg/m3, in the model frame.
 struct MassProperties {
-  double volume = 0.0;                     ///< m3
-  double area = 0.0;                       ///< m2
-  Vec3 center = Vec3::Zero();              ///< m, centre of mass
-  Mat3 inertia = Mat3::Zero();             ///< kg m2, about the centre of mass, along the axes of the model frame
-  Vec3 principal = Vec3::Zero();           ///< kg m2, principal moments of inertia, ascending
+  double volume = 0.0;          ///< volume (m3)
+  double area = 0.0;            ///< surface area (m2)
+  Vec3 center = Vec3::Zero();   ///< centre of mass (m)
+  Mat3 inertia = Mat3::Zero();  ///< inertia tensor (kg m2) about the centre of mass, along the axes of the model frame
+  Vec3 principal = Vec3::Zero();           ///< principal moments of inertia (kg m2), ascending
   Quat principal_axes = Quat::Identity();  ///< rotation from principal axes to the model frame; its columns are the
                                            ///< principal axes, right-handed
 };

@@ -12,7 +12,7 @@ namespace bin_scenes {
 /// The nearest point of a surface.
 struct NearestPoint {
   Vec3 point = Vec3::Zero();  ///< a point of the surface, model frame (m)
-  double distance = 0.0;      ///< unsigned (m)
+  double distance = 0.0;      ///< unsigned distance to this point (m)
   /// Index of the triangle that contains the point.
   std::size_t triangle = 0;
 };

@@ -38,8 +38,8 @@ class PartModel {
   const LoadReport& load_report() const;
   /// Digest of the mesh, the cache key of everything that depends on the mesh only.
   const std::string& mesh_key() const;
-  const MassProperties& mass() const;  ///< at a density of 1 kg/m3
-  double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
+  const MassProperties& mass() const;  ///< mass properties at a density of 1 kg/m3
+  double diagonal() const;             ///< diagonal of the bounding box (m), to which all relative errors refer
   double radius() const;               ///< largest distance of a vertex from the centre of mass (m)
 
   struct State;  ///< defined in src/part

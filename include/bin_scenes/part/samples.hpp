@@ -9,11 +9,11 @@
 
 namespace bin_scenes {
 
-/// One sample.
+/// One sample: a point on the surface with its normal.
 struct SurfaceSample {
-  Vec3 point = Vec3::Zero();   ///< on the surface, model frame (m)
+  Vec3 point = Vec3::Zero();   ///< point on the surface, model frame (m)
   Vec3 normal = Vec3::Zero();  ///< outward unit normal, averaged over the faces at edges and corners
-  double spacing = 0.0;        ///< m, mean distance to neighbouring samples of the same kind (corners, edges or faces)
+  double spacing = 0.0;        ///< mean distance (m) to neighbouring samples of the same kind (corners, edges or faces)
 };
 
 /// All samples of a part.

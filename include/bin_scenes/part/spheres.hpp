@@ -9,10 +9,10 @@
 
 namespace bin_scenes {
 
-/// One sphere.
+/// A sphere of the collision shape, in the model frame.
 struct Sphere {
-  Vec3 center = Vec3::Zero();  ///< model frame (m)
-  double radius = 0.0;         ///< m
+  Vec3 center = Vec3::Zero();  ///< centre in the model frame (m)
+  double radius = 0.0;         ///< radius (m)
   Vec3 normal = Vec3::Zero();  ///< outward normal of the true surface for spheres on a face; zero for spheres on edges
                                ///< and corners
 };

@@ -22,12 +22,12 @@ struct Symmetries {
 /// surface.
 struct SymmetryReport {
   Symmetries symmetries;
-  std::vector<double> continuous_error, discrete_error;  ///< m, by axis and by transform
-  double limit = 0.0;                                    ///< m: a rotation with at most this error counts as a symmetry
+  std::vector<double> continuous_error, discrete_error;  ///< error of each axis and of each transform (m)
+  double limit = 0.0;  ///< tolerance (m): a rotation with at most this error counts as a symmetry
   struct Nearly {
     Vec3 direction = Vec3::UnitZ();
     int order = 0;       ///< of the rotational symmetry (2: half a turn); 0: any angle
-    double error = 0.0;  ///< m, more than the limit and at most three times the limit
+    double error = 0.0;  ///< error (m); more than the limit and at most three times the limit
   };
   std::vector<Nearly> nearly;  ///< axes that miss the limit by little, for instance because of a mark or a chamfer
 };

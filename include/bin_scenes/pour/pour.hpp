@@ -1,6 +1,6 @@
-/// From a request to a scene at rest: parts start at seeded poses without overlap and enter above the growing heap, and
-/// a window of simulated time decides on rest. The code uses solvers through their interface only (solver/solver.hpp).
-/// It does not judge the result; quality/ does.
+/// Makes a scene at rest from a request. Parts enter above the growing heap, at poses drawn from the seed and without
+/// overlap. Parts that stay in place during a window of simulated time are at rest. Solvers are used through their
+/// interface only (solver/solver.hpp). The result is judged elsewhere (quality/).
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
@@ -29,7 +29,7 @@ struct RunHooks {
   /// each multiple of 1 / `trace_rate` (Hz of simulated time; at most once per step), and at the end.
   std::function<void(std::size_t scene, double time, const std::vector<BodyState>&)> trace;
   double trace_rate = 0.0;
-  /// Called before `trace` with the contacts at the same time (Solver::contact_forces()).
+  /// Receives the contacts (Solver::contact_forces()) of the same instant as `trace`, which is called after it.
   std::function<void(const std::vector<ContactForce>&)> trace_contacts;
 };
 

@@ -16,8 +16,8 @@ struct Trial {
   int part = 0;               ///< id of the part
   std::size_t gripper = 0;    ///< index into Request::grippers
   Pose pose;                  ///< from the gripper frame to the bin frame, at the end of the approach
-  double width = 0.0;         ///< m, parallel grippers: the opening at which the pads should meet the part
-  double force = 0.0;         ///< N, of each finger or of the vacuum
+  double width = 0.0;         ///< parallel grippers: opening (m) at which the pads should meet the part
+  double force = 0.0;         ///< force of each finger or of the vacuum (N)
   bool inner = false;         ///< parallel grippers: the fingers expand instead of closing
   Vec3 lift = Vec3::UnitZ();  ///< unit vector, direction of the lift in the bin frame
 };

@@ -13,9 +13,9 @@ namespace bin_scenes {
 class RestWatch {
  public:
   struct Limits {
-    double window = 0.25;  ///< s of simulated time
-    double move = 0.0;     ///< m, displacement of the centre of mass
-    double turn = 0.0;     ///< rad
+    double window = 0.25;  ///< length of the window of simulated time (s)
+    double move = 0.0;     ///< largest displacement of the centre of mass (m)
+    double turn = 0.0;     ///< largest rotation (rad)
   };
 
   explicit RestWatch(std::size_t bodies) : bodies_(bodies) {}
@@ -29,7 +29,7 @@ class RestWatch {
  private:
   struct Body {
     bool seen = false, resting = false;
-    double since = 0.0;  ///< time (s) of the reference pose
+    double since = 0.0;  ///< time of the reference pose (s)
     Vec3 center = Vec3::Zero();
     Quat orientation = Quat::Identity();
   };

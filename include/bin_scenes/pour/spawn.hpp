@@ -18,7 +18,7 @@ struct Cover {
     Vec3 center;
     double radius;
   };
-  std::vector<Ball> balls;     ///< model frame, m
+  std::vector<Ball> balls;     ///< balls in the model frame (m)
   Vec3 center = Vec3::Zero();  ///< centre of one sphere around all balls
   /// Radius of that sphere (m).
   double radius = 0.0;

@@ -15,7 +15,7 @@ namespace bin_scenes {
 /// removes the whole overlap (src/quality/penetration.cpp). A mesh inside the other one overlaps it. The depth of
 /// touching meshes is 0.
 struct Penetration {
-  double depth = 0.0;             ///< m, depth of the overlap; 0 if there is none
+  double depth = 0.0;             ///< depth of the overlap (m); 0: the meshes do not overlap
   Vec3 direction = Vec3::Zero();  ///< unit vector, along which b is moved away from a
   Vec3 point = Vec3::Zero();      ///< a point of the overlap, bin frame (m)
 };
@@ -54,7 +54,7 @@ struct PartQuality {
   int id = 0;
   double overlap = 0.0;           ///< m: deepest overlap with another part
   double overlap_relative = 0.0;  ///< the largest overlap with another part / smaller diagonal of the pair
-  double into_bin = 0.0;          ///< m: overlap with the bin
+  double into_bin = 0.0;          ///< overlap with the bin (m)
   double gap = 0.0;  ///< m: distance of free fall; infinite if nothing is below the part or if it is not at rest
 };
 /// Returns the measures of all parts that are in the scene, in their order.

@@ -22,7 +22,7 @@ struct Ray {
 
 /// The first intersection of a ray with a surface.
 struct Hit {
-  double distance;         ///< in units of the direction; NaN if nothing was hit
+  double distance;         ///< distance in units of the ray's direction; NaN: nothing was hit
   Vec3 normal;             ///< unit normal of the face in the bin frame, towards the origin of the ray
   std::uint16_t label;     ///< id + 1 of the part; 0 for the bin and for nothing
   std::int32_t line;       ///< index into Request::parts; -1 for the bin and for nothing, table_line for the table
@@ -105,7 +105,7 @@ class Scenery {
   struct Face {
     std::uint32_t body = no_face, triangle = 0;
     Vec3 normal = Vec3::Zero();  ///< outward, bin frame
-    bool outermost = false;      ///< whether the whole body is behind the plane of the face
+    bool outermost = false;      ///< whether the whole body is on the inner side of the plane of the face
     bool on_floor = false;
   };
   /// Returns the face with a number; its body is no_face for no_face.

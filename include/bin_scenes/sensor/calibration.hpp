@@ -12,11 +12,11 @@ namespace bin_scenes {
 
 /// Standard deviations of the errors; 0 means exact. The struct is stored in Sensor::settings.
 struct CalibrationSettings {
-  double focal = 0.0;     ///< pixels, of fx; fy has the same relative error
-  double center = 0.0;    ///< pixels, of cx and of cy
-  double baseline = 0.0;  ///< m, of the distance from the camera to the projector, laser or second camera
-  double position = 0.0;  ///< m, of the position of the whole device along each axis of its optical frame
-  double rotation = 0.0;  ///< rad, of the rotation of the whole device about each axis
+  double focal = 0.0;     ///< error of fx (pixels); fy has the same relative error
+  double center = 0.0;    ///< error of cx and of cy (pixels)
+  double baseline = 0.0;  ///< error of the distance (m) from the camera to the projector, laser or second camera
+  double position = 0.0;  ///< error of the device's position (m) along each axis of its optical frame
+  double rotation = 0.0;  ///< error of the device's rotation (rad) about each axis
   double range = 0.0;  ///< m, of a constant offset of all ranges along their rays, for sensors that do not triangulate;
                        ///< in the result of true_device() it is the offset itself
   bool any() const {

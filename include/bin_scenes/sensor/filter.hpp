@@ -8,49 +8,49 @@ namespace bin_scenes {
 
 /// A pixel is kept if enough other pixels of the window around it have nearly the same depth.
 struct OutlierFilter {
-  int neighbours = 0;   ///< required number of pixels with nearly the same depth; 0 = off
-  int window = 5;       ///< pixels, odd: edge of the window
-  double step = 0.005;  ///< m: largest difference of depth
+  int neighbours = 0;   ///< required number of pixels with nearly the same depth; 0: off
+  int window = 5;       ///< edge length of the window (pixels), odd
+  double step = 0.005;  ///< largest difference of depth (m)
 };
 
 /// Structured light measures the phase with fringes of a second period as well. Reflected light shifts the depths of
 /// both periods differently, and direct light does not: Gupta et al. 2011, "Structured light 3D scanning in the
 /// presence of global illumination".
 struct ReflectionFilter {
-  double step = 0.0;    ///< m: largest difference between the two depths; 0 = off
+  double step = 0.0;    ///< largest difference between the two depths (m); 0: off
   double period = 5.0;  ///< projector pixels: the second period; the shorter it is, the less reflected light shifts it
 };
 
 /// Removes pixels on both sides of a step of depth, where spots of light and windows of pixels cover two surfaces.
 struct EdgeFilter {
-  int reach = 0;        ///< pixel: how far from the step; 0 = off
-  double step = 0.005;  ///< m: smallest difference of neighbours in rows and columns that is a step
+  int reach = 0;        ///< distance from the step up to which pixels are removed; 0: off
+  double step = 0.005;  ///< smallest difference of depth (m) between adjacent pixels that is a step
 };
 
-/// Removes small regions that no neighbouring pixel connects with others.
+/// Removes small regions of connected pixels.
 struct ClusterFilter {
-  int pixels = 0;       ///< smaller regions are removed; 0 = off
-  double step = 0.005;  ///< m: neighbours in rows and columns that differ by at most as much are connected
+  int pixels = 0;       ///< regions of fewer pixels are removed; 0: off
+  double step = 0.005;  ///< adjacent pixels whose depths differ by at most this much (m) are connected
 };
 
 /// Replaces each depth by the median of the depths around it. Missing pixels are neither filled nor counted.
 struct MedianFilter {
-  int window = 0;  ///< odd, pixel: edge of the window; 0 = off
+  int window = 0;  ///< edge length of the window (pixels), odd; 0: off
 };
 
 /// Replaces each depth by that of a plane through the surrounding pixels of the same surface. Drivers call this
 /// smoothing or surface smoothness. The SNR remains that of the measurement.
 struct SmoothingFilter {
-  double sigma = 0.0;   ///< pixels: standard deviation of the weights; 0 = off
-  double step = 0.005;  ///< m: pixels farther away from the plane have no weight
+  double sigma = 0.0;   ///< standard deviation of the weights (pixels); 0: off
+  double step = 0.005;  ///< pixels farther from the plane than this (m) have no weight
 };
 
 /// All filters of a sensor. The struct is stored in Sensor::settings.
 struct FilterSettings {
-  double snr = 0.0;  ///< pixels with a lower SNR become dark; 0 = off
+  double snr = 0.0;  ///< pixels with a lower SNR become dark; 0: off
   OutlierFilter outlier;
   ReflectionFilter reflection{};
-  double incidence = 0.0;  ///< rad: pixels of which the measured normal is farther from the view are removed; 0 = off
+  double incidence = 0.0;  ///< largest angle (rad) between measured normal and ray; 0: off
   EdgeFilter edge{};
   ClusterFilter cluster{};
   MedianFilter median{};

@@ -9,9 +9,9 @@
 
 namespace bin_scenes {
 
-/// Returns the levels of RangeImage::gray, row-major. Of models without it they are 255 * intensity, and 0 where the
-/// intensity is not finite. Throws an input Error if the model exposes a grey image and it was not asked for
-/// (Draw::gray).
+/// Returns the levels of RangeImage::gray, row-major. If the sensor model makes no such image, they are 255 *
+/// intensity, and 0 where the intensity is not finite. Throws an input Error if the model makes a grey image, but
+/// `image` was made without it (Draw::gray).
 std::vector<std::uint8_t> gray_of(const RangeImage& image);
 
 }  // namespace bin_scenes

@@ -15,8 +15,8 @@ namespace bin_scenes {
 /// grey image is made as well.
 struct Draw {
   std::uint64_t seed = 0;
-  std::size_t scene = 0;   ///< index
-  std::size_t sensor = 0;  ///< index in the request
+  std::size_t scene = 0;   ///< index of the scene
+  std::size_t sensor = 0;  ///< index of the sensor in the request
   bool gray = true;        ///< whether RangeImage::gray is made; nothing else depends on it
 };
 

@@ -50,13 +50,13 @@ struct SensorModel {
   /// Throws an input Error that names a key below `key`, for mistakes that the ranges of single keys do not exclude. It
   /// is called for every sensor, whatever its model is, so that a mistake is found before the model is selected.
   void (*check)(const Sensor& sensor, const std::string& key);
-  /// The same for a resolved() sensor of this model, whose poses are known.
+  /// Makes the same tests for a resolved() sensor of this model, whose poses are known.
   void (*check_places)(const Sensor& sensor, const std::string& where);
   /// Makes the measured and the true images. @param view  view of the sensor's camera; its images may be moved out of
   /// it
   RangeImage (*measure)(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                         const Draw& draw);
-  /// The value of predicted_sigma() for a sensor with noise.
+  /// Returns the value of predicted_sigma() for a sensor with noise.
   double (*predicted_sigma)(const Sensor& sensor, double distance, double incidence, double albedo);
 
   enum class Image {
@@ -70,8 +70,8 @@ struct SensorModel {
   bool fidelity = false;  ///< it supports both values of Fidelity
   bool indirect = false;  ///< it sees light that was reflected by other surfaces
   int bounces = 0;        ///< default of Sensor::bounces
-  bool gray = false;      ///< it makes RangeImage::gray if Draw::gray says so
-  bool exact = false;     ///< it measures the truth: without noise, with true normals
+  bool gray = false;      ///< whether it makes RangeImage::gray if Draw::gray is true
+  bool exact = false;     ///< whether it measures without errors, with the true normals
   /// Converts the depths or points that `device` measured into those that it reports with the calibration of
   /// `believed`. Null: the range along the ray of a pixel stays the same.
   void (*report)(RangeImage& image, const Sensor& device, const Sensor& believed) = nullptr;

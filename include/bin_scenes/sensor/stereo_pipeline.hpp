@@ -50,7 +50,7 @@ enum class DotLayout {
   spread   ///< one dot at a random place in each square of a grid, so that no region is without dots
 };
 
-/// The keys of `stereo` that are not in StereoSettings.
+/// Further settings of stereo cameras, which the keys of `stereo` set in addition to StereoSettings.
 struct StereoPipeline {
   DotLayout layout = DotLayout::random;
   StereoMatcher matcher = StereoMatcher::semi_global;
@@ -65,7 +65,7 @@ struct StereoPipeline {
 
 /// The number format of depth.
 struct DepthFormat {
-  double unit = 0.0;  ///< m; 0 = not rounded
+  double unit = 0.0;  ///< depths are rounded to multiples of this length (m); 0: not rounded
 };
 
 }  // namespace bin_scenes

@@ -24,16 +24,16 @@ namespace bin_scenes {
 /// Constant properties of a body.
 struct BodyDef {
   std::size_t part = 0;      ///< index into WorldDef::parts
-  double mass = 1.0;         ///< kg, > 0; the inertia follows from the part's mass properties
-  double friction = 0.5;     ///< coefficient of friction of a pair: sqrt(a * b)
-  double restitution = 0.0;  ///< restitution of a pair: max(a, b)
+  double mass = 1.0;         ///< mass (kg), > 0; the inertia follows from the part's mass properties
+  double friction = 0.5;     ///< friction coefficient of the body; that of a pair is sqrt(a * b)
+  double restitution = 0.0;  ///< restitution of the body; that of a pair is max(a, b)
   bool fixed = false;  ///< infinite mass: the body keeps the velocity with which it was inserted, whatever it touches
 };
 
 /// Pose and velocity of a body.
 struct BodyState {
   Pose pose;       ///< from the model frame to the bin frame
-  Twist velocity;  ///< of the centre of mass, bin frame
+  Twist velocity;  ///< velocity of the centre of mass, and angular velocity, in the bin frame
 };
 
 /// Constant properties of a world.
@@ -88,9 +88,9 @@ struct Jaws {
 /// The force between two bodies at one point (bin frame, SI).
 struct ContactForce {
   int a = 0, b = -1;   ///< indices of the bodies; b is -1 for the bin
-  Vec3 point, normal;  ///< m; the unit normal points from a to b
-  Vec3 force;          ///< N, the force on b including friction; the opposite force acts on a
-  double gap = 0.0;    ///< m, distance of the surfaces along the normal; negative where they overlap
+  Vec3 point, normal;  ///< contact point (m); unit normal from a to b
+  Vec3 force;          ///< force (N) on b including friction; the opposite force acts on a
+  double gap = 0.0;    ///< distance (m) of the surfaces along the normal; negative: overlap
 };
 
 /// The deepest contact over an interval of time, by the contact depths of the solver.
@@ -198,7 +198,7 @@ class Solver {
 
   /// Returns the number of worlds that should be simulated together for the highest speed.
   virtual std::size_t worlds_at_once() const { return 1; }
-  virtual double step_size() const = 0;  ///< s, a step with one collision detection
+  virtual double step_size() const = 0;  ///< length of a step (s), in which contacts are found once
   virtual std::uint64_t steps(WorldId world) const = 0;
   virtual const Profile& profile() const = 0;  ///< times of stages and counters since construction
   virtual std::vector<Flag> flags(WorldId world) const = 0;

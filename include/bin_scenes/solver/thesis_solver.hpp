@@ -22,7 +22,7 @@ namespace thesis {
 struct World;
 }
 
-/// The solver of the thesis; see above.
+/// The solver of the thesis, as the head of this file describes it.
 class ThesisSolver : public Solver {
  public:
   /// Requires a GL device (gl/device.hpp) on this thread; throws an environment Error without one.

@@ -20,13 +20,13 @@ namespace bin_scenes {
 struct WatchRules {
   Vec3 lower, upper;  ///< m: a body whose centre of mass is beyond these bounds has left the bin; they may be infinite
   double rest_move = 0.0;  ///< RestWatch::Limits::move in diagonals of the part
-  double rest_turn = 0.0;  ///< rad
+  double rest_turn = 0.0;  ///< RestWatch::Limits::turn (rad)
 };
 
 /// What to observe at the end of the next begin().
 struct WatchAsk {
   std::uint32_t observation = 0;  ///< number of the observation; 0: none
-  double seconds = 0.0;           ///< s since the last observation
+  double seconds = 0.0;           ///< simulated time since the last observation (s)
   bool rest_anew = false;         ///< the observation of rest starts again: no earlier pose counts
   bool energy_anew = false;  ///< the observation of energy starts again with this begin(): no earlier energy and no
                              ///< earlier maximum counts

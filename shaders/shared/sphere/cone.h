@@ -5,9 +5,9 @@
 // parts lie with their edges flush, this gradient would push one part sideways off the other. Such a direction is
 // rotated into the cone (touch.h states when).
 
-const float LEAST_LEFT = 0.1f;  // smallest cosine of a rotation into the cone: a direction that is tilted by more than
-                                // 84 degrees does not press
-const int CONE_SWEEPS = 8;      // rounds of cyclic projection; two suffice if the bounds are perpendicular
+const float LEAST_LEFT = 0.1f;  // smallest cosine of a rotation into the cone: along a direction that is more than 84
+                                // degrees outside the cone, no contact presses
+const int CONE_SWEEPS = 8;      // number of cyclic projections on the bounds; two suffice if these are perpendicular
 
 // Rotates a unit direction into the cone. Returns false if the cosine of the rotation would be below `least`.
 INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {

@@ -7,13 +7,13 @@
 
 // The compliance of contacts in one sweep.
 struct Give {
-  float sub_step;                         // s
-  float rate, mass_share, impulse_share;  // coefficients of an implicit spring over one sub-step
-  float slop, push_speed;                 // m of overlap that is left; m/s, largest speed with which overlap is removed
+  float sub_step;                         // length of a sub-step (s)
+  float rate, mass_share, impulse_share;  // coefficients of an implicit spring: bias rate (1/s), and factors (0 to 1)
+  float slop, push_speed;                 // overlap that is not removed (m), largest speed of removing overlap (m/s)
 };
 
-// The compliance in the sweeps before bodies move, which remove overlap like a spring. rate: frequency of the spring /
-// frequency of sub-steps.
+// Returns the compliance in the sweeps before bodies move, which remove overlap like a spring. rate: frequency of the
+// spring / frequency of sub-steps.
 INLINE Give softly(float sub_step, float rate, float damping_ratio, float slop, float push_speed) {
   float omega = 6.2831853f * rate / sub_step, a1 = 2.0f * damping_ratio + sub_step * omega;
   float a2 = sub_step * omega * a1, a3 = 1.0f / (1.0f + a2);
@@ -27,8 +27,8 @@ INLINE Give softly(float sub_step, float rate, float damping_ratio, float slop, 
   return give;
 }
 
-// The compliance in the sweeps after bodies have moved, which remove the velocity that pushing apart has caused
-// (relaxation).
+// Returns the compliance in the sweeps after bodies have moved, which remove the velocity that the removal of overlap
+// has caused (relaxation).
 INLINE Give firmly(float sub_step) {
   Give give;
   give.sub_step = sub_step;
@@ -37,8 +37,8 @@ INLINE Give firmly(float sub_step) {
   return give;
 }
 
-// Effective mass of a contact along a direction. moment: lever arm x direction; turn: the change of angular velocity by
-// that moment.
+// Returns the effective mass (kg) of a contact along a direction. moment: lever arm x direction (m); turn: inverse
+// inertia times moment, the change of angular velocity by a unit impulse.
 INLINE Real effective_mass(Real inverse_masses, IN(Real3) moment_a, IN(Real3) turn_a, IN(Real3) moment_b,
                            IN(Real3) turn_b) {
   Real k = inverse_masses + dot(moment_a, turn_a) + dot(moment_b, turn_b);
@@ -52,7 +52,7 @@ INLINE Real speed_at_impact(Real speed, Real gap, Real acceleration) {
   return select(speed < 0.0f, -sqrt(max(square, all_lanes(0.0f))), speed);
 }
 
-// Returns the new normal impulse. A contact with a gap may close it but does not pull.
+// Returns the normal impulse (N s) after a sweep. A contact with a gap lets the bodies close it but does not pull.
 INLINE Real normal_impulse(Real before, Real speed, Real gap, Real mass, IN(Give) give) {
   Mask apart = gap > 0.0f;
   Real push = max(give.rate * min(gap + give.slop, all_lanes(0.0f)), all_lanes(-give.push_speed));
@@ -63,13 +63,13 @@ INLINE Real normal_impulse(Real before, Real speed, Real gap, Real mass, IN(Give
   return max(before + change, all_lanes(0.0f));
 }
 
-// Whether a contact whose impulse a sweep changed by `change` needs a further sweep. tolerance: m/s.
+// Returns whether a contact whose impulse a sweep changed by `change` (N s) needs another sweep. tolerance: m/s.
 INLINE Mask is_unconverged(Real change, Real mass, float tolerance) {
   return max(change, -change) > tolerance * mass;
 }
 
-// Limits friction to Coulomb's cone, in both tangential directions together. most: coefficient of friction times the
-// normal impulse.
+// Limits the friction impulses f1 and f2 (N s) along two tangents to Coulomb's cone. most: coefficient of friction
+// times the normal impulse (N s).
 INLINE void put_into_cone(Real most, INOUT(Real) f1, INOUT(Real) f2) {
   Real size = sqrt(f1 * f1 + f2 * f2);
   Real share = select(size > most, most / size, all_lanes(1.0f));
@@ -77,7 +77,7 @@ INLINE void put_into_cone(Real most, INOUT(Real) f1, INOUT(Real) f2) {
   f2 *= share;
 }
 
-// Whether a contact presses, and its friction is at the limit that the normal force allows.
+// Returns whether a contact presses and slides: its friction has the limit `most` (N s) of Coulomb's cone.
 INLINE Mask slips(Real most, Real f1, Real f2) {
   return (most > 0.0f) AND(f1 * f1 + f2 * f2 > 0.999f * most * most);
 }
@@ -86,8 +86,8 @@ INLINE Mask slips(Real most, Real f1, Real f2) {
 // addition by the impulse that stops impact_speed(). An impulse beyond that belongs to an impact, which is over, so
 // that the next sub-step does not start with it. Otherwise, a few sweeps could not remove all of it from a heap,
 // and the rest would throw parts upwards.
-const float FORCE_GROWTH = 1.5f;  // with a larger value, heaps rebound; with a smaller one, the loads of a deep heap
-                                  // are found later
+const float FORCE_GROWTH = 1.5f;  // largest ratio of forces in successive sub-steps; with more, heaps rebound; with
+                                  // less, the loads of a deep heap are found later
 
 // Returns the speed (m/s) that a new contact may stop in its first sub-step without counting as an impact. `weight`:
 // acceleration (m/s2).
@@ -96,25 +96,25 @@ INLINE float impact_speed(float sub_step, float weight, float restitution_speed)
   return falls > 0.0f ? min(falls, restitution_speed) : restitution_speed;
 }
 
-// Returns the share of an impulse with which the next sub-step starts, for an impulse that was `lasting` at its start.
+// Returns the share of an impulse that the next sub-step starts with. lasting: impulse at the start of this one (N s).
 INLINE Real lasting_share(Real impulse, Real lasting, Real mass, float impact_speed) {
   Real most = FORCE_GROWTH * lasting + impact_speed * mass;
   return select(impulse > most, most / impulse, all_lanes(1.0f));
 }
 
-// Whether a contact was hit fast enough to bounce. It either pressed, or was closed by an impact that its neighbours
-// took.
+// Returns whether a contact was hit fast enough to bounce: it has pressed, or it would have closed in this sub-step if
+// neighbouring contacts had not stopped the bodies. approach: m/s, negative.
 INLINE Mask was_hit(Real approach, Mask pressed, Real gap, float sub_step, float restitution_speed) {
   return (approach <= -restitution_speed) AND(pressed OR(gap < -approach * sub_step));
 }
 
-// Newton's restitution: returns the impulse after which the separating speed is e times the approach speed.
+// Returns the normal impulse (N s) after which the separating speed is restitution x approach speed (Newton's law).
 INLINE Real bounced_impulse(Real before, Real speed, Real mass, Real restitution, Real approach) {
   return max(before - mass * (speed + restitution * approach), all_lanes(0.0f));
 }
 
 // Returns mean speed in a sub-step / speed at its end, for a body that friction brakes steadily. It is 1 for a body
-// that is hit, or that is so slow that friction stops it within a sub-step.
+// that is hit, or that is so slow that friction stops it in the sub-step. before, after: speeds (m/s).
 INLINE float mean_share(float before, float after) {
   return after > 0.5f * before && after < 2.0f * before ? 0.5f * (before / after + 1.0f) : 1.0f;
 }

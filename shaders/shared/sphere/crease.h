@@ -5,8 +5,8 @@
 //
 // The includer includes edge.h before.
 
-const float CREASE_REACH = 2.0f;  // cells: a crease distorts the distances of the grid up to this distance
-const float CREASE_DEPTH = 0.5f;  // cells: a point deeper in a wall may be on the other side of the wall
+const float CREASE_REACH = 2.0f;  // cells: within this distance of a crease, the distances of the grid are inaccurate
+const float CREASE_DEPTH = 0.5f;  // cells: a point that is deeper in a wall may have come from behind the wall
 
 // A wall of a crease, or a face of a sharp edge beside it. `away`: unit normal out of the part.
 struct Wall {
@@ -16,7 +16,7 @@ struct Wall {
   bool faced;      // whether the point is in front of the wall, and not beyond one of its sharp edges
 };
 
-// The walls at a point. An invocation has only one such list at a time.
+// List of the walls at a point. An invocation has only one such list at a time, because its memory is shared.
 struct Walls {
   uint count;
   MEMBER_LIST(Wall, wall, SPHERE_MAX_WALLS)
@@ -24,7 +24,7 @@ struct Walls {
 LANE_LIST(Wall, wall_lists, SPHERE_MAX_WALLS)
 #define WALL(walls, i) LISTED(walls.wall, wall_lists, i)
 
-// Adds a wall unless it is in the list. Returns its number, or SPHERE_MAX_WALLS if the list is full.
+// Adds a wall unless it is in the list (`same`: tolerance, m). Returns its number, or SPHERE_MAX_WALLS if it is full.
 INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
   const float like = 0.999f;  // cosine of the angle up to which two walls count as one
   uint i = 0u;
@@ -42,7 +42,7 @@ INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
   return i;
 }
 
-// Returns the walls at a point. There are none if no crease is near, or if the point is deep in one of the walls.
+// Returns the walls of `other` at a point. There are none if no crease is near, or if the point is deep in a wall.
 INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   Walls walls;
   walls.count = 0u;

@@ -12,7 +12,7 @@ INLINE bool is_crease(IN(Samples) samples, uint e) {
   return e >= first_crease(samples);
 }
 
-// The position of a sample in the frame of the field, with distance and gradient of the field there.
+// The position of a sample in the frame of the field (m), with distance (m) and unit gradient of the field there.
 struct Touch {
   vec3 point, gradient;
   float distance;
@@ -46,32 +46,32 @@ INLINE bool descend(IN(Field) field, IN(Touch) p, IN(Touch) q, INOUT(Touch) touc
 // Finds the nearest points of the lines p + s u and r + t v, with w = p - r. Returns false if the lines are parallel to
 // within a degree: such edges are represented by their nodes. `uu`: squared length of u.
 INLINE bool nearest_points(IN(vec3) u, float uu, IN(vec3) v, IN(vec3) w, OUT(float) s, OUT(float) t) {
-  const float as_parallel = 3e-4f;  // square of the sine
+  const float as_parallel = 3e-4f;  // squared sine of the angle below which lines count as parallel
   float uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
   s = (uv * vw - vv * uw) / det;
   t = (uu * vw - uv * uw) / det;
   return det >= as_parallel * uu * vv;
 }
 
-// Whether a contact may press on an edge along a normal. `away` points roughly out of the part of the edge.
+// Returns whether a contact may press on an edge along a normal. `away`: unit direction roughly out of the edge's part.
 INLINE bool presses_between(IN(Edge) edge, IN(vec3) normal, IN(vec3) away) {
   const float least_along = 0.3f;  // smallest component of the normal along `away`: the normal may be tilted, but not
                                    // to the other side
-  const float most_beyond = 0.1f;  // largest component of the normal beyond the faces of the edge: 6 degrees
+  const float most_beyond = 0.1f;  // largest component of the normal along a bound of the edge's cone: 6 degrees
   if (dot(normal, away) < least_along) return false;
   return bounds_of(edge.cone) == 0u ||
          max(dot(normal, bound_at(edge.cone, 0u)), dot(normal, bound_at(edge.cone, 1u))) <= most_beyond;
 }
 
-// Returns the unit normal of two directions that is on the side of `away`.
+// Returns the unit vector that is perpendicular to u and v and has a positive component along `away`.
 INLINE vec3 common_normal(IN(vec3) u, IN(vec3) v, IN(vec3) away) {
   vec3 normal = unit(cross(u, v));
   if (dot(normal, away) < 0.0f) normal = -normal;
   return normal;
 }
 
-// Whether a point is beside an edge and not past one of its ends, where another edge follows, or a corner that is not
-// convex all around. `along`: direction of the edge; `off`: vector from its line to the point.
+// Returns whether a point is beside an edge and not past one of its ends (`flush`: tolerance, m). `along`: vector from
+// end a to end b of the edge (m); `off`: vector from the line of the edge to the point (m).
 INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float flush, OUT(vec3) along, OUT(vec3) off) {
   along = node_at(samples, edge.b) - node_at(samples, edge.a);
   vec3 from_end = point - node_at(samples, edge.a);
@@ -80,7 +80,7 @@ INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float 
   return t * length_of(edge) >= -flush && (t - 1.0f) * length_of(edge) <= flush;
 }
 
-// Unit normals of the two faces that meet at a sharp edge.
+// Outward unit normals of the two faces that meet at a sharp edge.
 struct Faces {
   vec3 normal_1, normal_2;
 };
@@ -92,14 +92,14 @@ INLINE Faces faces_at(IN(Cone) cone, IN(vec3) along) {
   return faces;
 }
 
-// Tolerance (m) within which a point counts as level with a face: rounding may make it protrude by that much. With a
-// larger tolerance, a point that has passed an edge would still be supported by the face behind the edge.
+// Returns the tolerance (m) within which a point counts as level with a face; rounding is below it. With a larger
+// tolerance, a point that has passed an edge would still be supported by the face behind the edge.
 INLINE float flush_in(IN(Field) field) {
   return 0.002f * field.cell;
 }
 
-// Whether a point is outside a face that ends at a sharp edge within one cell. The grid cannot decide this in a tip
-// that is thinner than its cells.
+// Returns whether a point is outside a face of `other` that ends at a sharp edge within one cell. The distance field
+// cannot decide this in a tip that is thinner than its cells.
 INLINE bool is_outside(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float flush = flush_in(field);
   Range list = edges_near(other, field, point);
@@ -113,9 +113,9 @@ INLINE bool is_outside(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   return false;
 }
 
-// Finds the edge of the other part that the edge from p to q crosses. Depth and direction are those of the nearest such
-// edge along the common normal of both, if contacts may press on both along it. `touch` is the result of the field and
-// is replaced; if there is no such edge, it stays as it was, and false is returned.
+// Finds the nearest edge of the other part that the edge from p to q crosses and on which a contact may press along the
+// common normal of both edges. `touch` contains the point and the gradient of the field, and gets point, normal and
+// distance of the crossing. Returns false, and leaves `touch` unchanged, if there is no such edge.
 INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(Touch) touch) {
   vec3 u = q - p, from = touch.point, out_of = touch.gradient;
   float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(touch.distance), SPHERE_EDGE_REACH * field.cell);
@@ -142,8 +142,8 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
   return found;
 }
 
-// Whether a line through a point along a unit direction crosses a sharp edge of the other part within one cell, and
-// contacts may press on that edge along the `normal` of both. `away` points roughly out of the other part.
+// Returns whether a line through a point along a unit direction crosses a sharp edge of the other part within one cell,
+// and a contact may press there along the common normal, which it stores. `away` points roughly out of the other part.
 INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) direction, IN(vec3) away,
                         INOUT(vec3) normal) {
   float nearest = field.cell;
@@ -166,8 +166,8 @@ INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(v
   return found;
 }
 
-// Whether a point of the surface is on a sharp edge, or on a corner where such edges end, within the resolution of the
-// grid.
+// Returns whether a point of the surface of `other` is within half a cell of a sharp edge or of a corner where such
+// edges end.
 INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float near = 0.5f * field.cell;
   Range list = edges_near(other, field, point);
@@ -183,13 +183,13 @@ INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
 
 const uint OF_A_FACE = 0u, TO_AN_EDGE = 1u, BY_THE_FIELD = 2u;
 
-// A direction in which a point leaves a part: unit direction, and distance to the surface (m, negative inside).
+// An exit: a unit direction in which a point leaves a part, and its distance from the surface (m, negative inside).
 struct Exit {
   vec3 away;
   float distance;
-  uint number;  // number among the exits that press at one point
-  uint kind;    // what gives the direction: the normal of a face, the direction to an edge (which may deviate from the
-                // normals of its faces), or the gradient of the field (which may point to a face or to an edge)
+  uint number;  // index of the wall of a crease, so that the contacts of a point have different features; otherwise 0
+  uint kind;    // origin of the direction: OF_A_FACE (normal of a face), TO_AN_EDGE (direction to an edge, which may
+                // deviate from the normals of its faces), BY_THE_FIELD (gradient of the field: face or edge)
 };
 
 INLINE Exit exit_of(uint kind, IN(vec3) away, float distance) {
@@ -201,7 +201,7 @@ INLINE Exit exit_of(uint kind, IN(vec3) away, float distance) {
   return exit;
 }
 
-// A list of exits, the shortest first. An invocation has only one such list at a time.
+// A list of exits, the shortest first. An invocation has only one such list at a time, because its memory is shared.
 struct Exits {
   uint count;
   MEMBER_LIST(Exit, exit, SPHERE_MAX_EXITS)
@@ -209,17 +209,17 @@ struct Exits {
 LANE_LIST(Exit, exit_lists, SPHERE_MAX_EXITS)
 #define EXIT(exits, i) LISTED(exits.exit, exit_lists, i)
 
-// The sharp edges beside a point, while they are collected.
+// Data that exits_at_edge() collects from the sharp edges beside a point.
 struct EdgesBeside {
   Exits faces;                                   // one exit for each face that meets an edge
-  MEMBER_LIST(float, to_edge, SPHERE_MAX_EXITS)  // m, from the point to the edge at which each face was found
-  Exit outside;                                  // exit by the nearest edge, for a point outside
-  float nearest;                                 // m, to that edge
+  MEMBER_LIST(float, to_edge, SPHERE_MAX_EXITS)  // distance (m) of the point from the edge where each face was found
+  Exit outside;                                  // exit at the nearest edge, which is used if the point is outside
+  float nearest;                                 // m, distance from the point to the nearest edge
 };
 LANE_LIST(float, to_edge_lists, SPHERE_MAX_EXITS)
 #define TO_EDGE(found, i) LISTED(found.to_edge, to_edge_lists, i)
 
-// Adds the exit through a face. It replaces an exit through the same face that was found at an edge farther away.
+// Adds the exit through a face. It replaces an exit through the same face that was found at a more distant edge.
 INLINE void add_face(INOUT(EdgesBeside) found, IN(Exit) face, float to_edge) {
   const float like = 0.95f;  // cosine between normals that count as those of one face
   uint i = 0u;
@@ -236,7 +236,7 @@ INLINE void add_face(INOUT(EdgesBeside) found, IN(Exit) face, float to_edge) {
   found.faces.count = max(found.faces.count, i + 1u);
 }
 
-// Adds both faces of an edge from which a point is `off` away.
+// Adds the exits of a point through both faces of an edge. `off`: vector from the edge to the point (m).
 INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN(vec3) off) {
   float to_edge = length(off);
   vec3 into_1 = bound_at(cone, 0u), into_2 = bound_at(cone, 1u);
@@ -263,14 +263,14 @@ INLINE void sort_by_length(INOUT(Exits) exits) {
     }
 }
 
-// Whether an edge ends at a corner.
+// Returns whether an edge ends at a corner, within the distance `same` (m).
 INLINE bool ends_at(IN(Samples) samples, IN(Edge) edge, IN(vec3) corner, float same) {
   vec3 from_a = node_at(samples, edge.a) - corner, from_b = node_at(samples, edge.b) - corner;
   return min(dot(from_a, from_a), dot(from_b, from_b)) < same * same;
 }
 
 // Returns whether the nearest point of the surface is a convex corner, for a point that is past the ends of sharp edges
-// but beside none of them. If fewer than three edges end there, the surface continues; if a crease
+// but beside none of them. If fewer than three sharp edges end at the corner, it is not convex all around; if a crease
 // ends there as well, the point may be in front of another face.
 INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) corner) {
   float away = length(point - corner), same = 0.01f * field.cell;
@@ -286,9 +286,9 @@ INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(
   return count > 2u;
 }
 
-// Returns the exits of a point within one cell of sharp edges, by the planes of the faces that meet there. Inside all
-// faces, each face is an exit. Outside, there is one exit: to the nearest edge, or above its face. The list is empty if
-// no edge is near.
+// Returns the exits from `other` of a point within one cell of sharp edges, computed from the planes of the faces that
+// meet there. Inside all faces, each face is an exit. Outside, there is one exit: to the nearest edge, or along the
+// normal of its face. The list is empty if no edge is near.
 INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float flush = flush_in(field);
   EdgesBeside found;

@@ -20,13 +20,13 @@ INLINE float value_in(IN(Cell) c) {
   return between(between(x0, x1, c.v), between(x2, x3, c.v), c.w);
 }
 
-// Outside the grid, returns a lower bound of the distance: the distance to the grid is added.
+// Returns `value` (m), or outside the grid a lower bound of the distance (m): at least padding + distance to the grid.
 INLINE float bounded(IN(Cell) c, float value, float padding) {
   float beyond = max(value, c.outside + padding);
   return c.outside > 0.0f ? beyond : value;
 }
 
-// Returns the distance (m, negative inside) and the direction in which it grows.
+// Returns the distance (m, negative inside) at a point in cell c; `gradient`: unit direction in which it grows.
 INLINE float distance_in(IN(Cell) c, float cell, float padding, IN(vec3) point, OUT(vec3) gradient) {
   float x0 = between(c.c0, c.c1, c.u), x1 = between(c.c2, c.c3, c.u);
   float x2 = between(c.c4, c.c5, c.u), x3 = between(c.c6, c.c7, c.u);
@@ -34,7 +34,7 @@ INLINE float distance_in(IN(Cell) c, float cell, float padding, IN(vec3) point, 
   float dx0 = between(c.c1 - c.c0, c.c3 - c.c2, c.v), dx1 = between(c.c5 - c.c4, c.c7 - c.c6, c.v);
   gradient = vec3(between(dx0, dx1, c.w), between(x1 - x0, x3 - x2, c.w), y1 - y0);
   float steep = length(gradient), from_center = length(point);
-  // On the medial axis, the slopes of both sides cancel. The exit is then away from the centre of mass.
+  // On the medial axis, the slopes of both sides cancel. The direction is then away from the centre of mass.
   if (steep > 1e-3f * cell)  // the gradient is not normalised yet: where the slope is 1, its length is one cell
     gradient /= steep;
   else if (from_center > 0.0f)

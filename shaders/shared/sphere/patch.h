@@ -7,12 +7,12 @@
 //
 // Use: gather() for all contacts, close_patch(), spread() for all contacts, then both torques.
 struct Patch {
-  Real impulse;          // N s, sum over all contacts
-  Real3 center, normal;  // m, from the centre of mass of a; and unit normal
-  Real spin, tipping;    // rad/s, rotation of a relative to b about the normal, and perpendicular to it
-  Real3 tip_axis, across;
-  Real wide, wide_across;  // squared distances of the contacts from the centre, and across the axis of tipping,
-                           // weighted by impulse (m2 N s)
+  Real impulse;            // sum of the normal impulses of all contacts (N s)
+  Real3 center, normal;    // centre of the disk, from the centre of mass of a (m); unit normal of the disk
+  Real spin, tipping;      // rad/s, rotation of a relative to b about the normal, and perpendicular to it
+  Real3 tip_axis, across;  // unit axis of tipping, and unit direction in the disk perpendicular to it
+  Real wide, wide_across;  // sums of normal impulse x squared distance of a contact (m2 N s): from the centre, and from
+                           // the axis of tipping
 };
 
 INLINE Patch open_patch(IN(Real3) zero) {
@@ -45,7 +45,7 @@ INLINE void spread(INOUT(Patch) area, Real impulse, IN(Real3) ra) {
   area.wide_across += impulse * side * side;
 }
 
-// Return the largest torque impulses (N m s). radius: m, of the patch; arm: m, 0 for a ball, which rolls freely.
+// Return the largest torque impulses (N m s) against spin and tipping of a patch (radius, m; arm: torque / force, m).
 INLINE Real most_against_spin(IN(Patch) area, Real radius, Real friction) {
   Real widest = 4.0f * radius * radius * area.impulse;
   return select(area.wide <= widest, 2.0f / 3.0f * radius * friction * area.impulse, all_lanes(0.0f));
@@ -55,8 +55,8 @@ INLINE Real most_against_tipping(IN(Patch) area, Real radius, Real arm) {
   return select(area.wide_across <= widest, arm * area.impulse, all_lanes(0.0f));
 }
 
-// Returns the torque impulse that stops a rotation about an axis, at most `most`. turn_a, turn_b: changes of angular
-// velocity by a unit torque impulse about the axis.
+// Returns the torque impulse (N m s) that stops a rotation of `speed` (rad/s) about an axis, at most `most` (N m s).
+// turn_a, turn_b: changes of the angular velocities of a and b by a unit torque impulse about the axis.
 INLINE Real moment_against(Real speed, Real most, IN(Real3) axis, IN(Real3) turn_a, IN(Real3) turn_b) {
   Real k = dot(axis, turn_a) + dot(axis, turn_b);
   return min(max(select(k > 0.0f, speed / k, all_lanes(0.0f)), -most), most);

@@ -3,19 +3,19 @@
 #ifndef SHARED_SPHERE_PLAN_H
 #define SHARED_SPHERE_PLAN_H
 struct StepPlan {
-  int sub_steps, sweeps;  // sweeps: in each sub-step, before bodies move
-  int relaxing_sweeps;    // sweeps after bodies have moved. Rigid contacts push slowly, so that one sweep removes the
-                          // velocity that is left; without it, a gear on its teeth rolls forever
-  int slip_sub_steps;     // the first sub-steps, which have no friction while the forces of a probe are found
-  float sub_step;         // s
+  int sub_steps, sweeps;  // number of sub-steps, and number of sweeps in each sub-step before bodies move
+  int relaxing_sweeps;    // sweeps in each sub-step after bodies have moved. Rigid contacts push slowly, so that one
+                          // sweep removes the remaining velocity; without it, a gear on its teeth rolls forever
+  int slip_sub_steps;     // number of the first sub-steps that are without friction while a probe finds its forces
+  float sub_step;         // length of a sub-step (s)
   float contact_time;     // s from the start of the step to the mean of the times at which its sub-steps begin.
                           // Contacts, lever arms and normals belong to that time, which makes the motion the symplectic
                           // Euler method over the sub-steps and conserves energy; with those of the start of the step,
                           // bodies that roll on an edge gain energy
 };
 
-// Plans a step. time_step: s; sweeps: of a sub-step, before and after bodies move; probe_slip: s; forgets: whether the
-// step starts without forces.
+// Returns the plan of a step. time_step: s; sweeps: number in a sub-step before and after bodies move; rigid: whether
+// contacts are rigid; forgets: whether the step starts without remembered forces; probe_slip: s without friction.
 INLINE StepPlan plan_step(float time_step, int sub_steps, int sweeps, bool rigid, bool forgets, float probe_slip) {
   StepPlan plan;
   plan.sub_steps = sub_steps;

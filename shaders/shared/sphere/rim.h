@@ -1,19 +1,19 @@
-// The rim of a wall of the bin against the field of a part that lies across it. The line of the rim may pass between
-// the nodes of the part. One candidate is found for each place along the line where it is nearest, or deepest. The
-// includer includes slide.h before.
+// Contacts between the rim of a wall of the bin and the field of a part that lies across it. The line of the rim may
+// pass between the nodes of the part. One candidate is found at each place along the line where the distance to the
+// part has a minimum. The includer includes slide.h before.
 
 const int RIM_ROUNDS = 8;  // rounds of the search; each removes a third of the interval that contains the nearest point
 
-// Points along the rim near a part. Point i, from first to last, is i times step_size (m) along the line.
+// Points along the rim near a part. Point i, from first to last, is i times step_size (m) from the start of the line.
 struct Rim {
   vec3 start;  // start of the line, relative to the part's centre, bin frame (m)
-  vec3 along;
+  vec3 along;  // unit direction of the line, bin frame
   float step_size;
   int first, last;
 };
 
-// Finds the points of the rim near a part with that radius at `position`. Returns false if the part does not come
-// within the margin. `top`: height of the rim (m).
+// Finds the points of the rim of a wall near a part whose bounding sphere has its centre at `position` (bin frame).
+// Returns false if the sphere is farther away than `margin`. top: height of the rim. All lengths are in m.
 INLINE bool find_rim(IN(Plane) plane, float top, IN(vec3) position, float radius, float margin, float face_spacing,
                      INOUT(Rim) rim) {
   vec3 up = vec3(0.0f, 0.0f, 1.0f), normal = normal_of(plane);
@@ -29,7 +29,7 @@ INLINE bool find_rim(IN(Plane) plane, float top, IN(vec3) position, float radius
   return true;
 }
 
-// Returns a point of the rim in the frame of the part.
+// Returns the point (m) at coordinate t (m) along the rim, in the frame of the part. rotation: part to bin frame.
 INLINE vec3 on_rim(IN(Rim) rim, IN(mat3) rotation, float t) {
   return turned_back(rotation, rim.start + t * rim.along);
 }
@@ -38,18 +38,18 @@ INLINE float distance_at(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, int i)
   return sample_field(field, on_rim(rim, rotation, rim.step_size * float(i)));
 }
 
-// Whether the rim may touch the part around a point, by the distances there and at the two neighbouring points.
+// Returns whether the rim may touch a part around a point, from the distances (m) there and at both its neighbours.
 INLINE bool may_touch_rim(IN(Rim) rim, float before, float here, float after, float margin) {
-  // The point is nearest, or it is an end of a stretch in which the rim lies along a face.
+  // The distance has a minimum at the point, or the point is an end of a piece of the rim that lies along a face.
   bool nearest = here <= before && here <= after && (here < before || here < after);
   return nearest && here - rim.step_size < margin;
 }
 
-// Finds where the part is nearest to the rim around point i: the coordinate t along the rim, and the part's field
-// there, in the part's frame. Returns whether the rim can press there.
+// Finds the place around point i where the part is nearest to the rim: the coordinate t along the rim (m), and point,
+// distance and gradient of the part's field there (part frame). Returns whether the rim can press there.
 INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) rotation, int i, INOUT(float) t,
                       INOUT(Touch) touch) {
-  const float least_out = -0.1f;  // the exit from the rim points up, off the wall, or between both
+  const float least_out = -0.1f;  // smallest component, along up and along the wall's normal, of a direction out of it
   float lower = rim.step_size * float(i - 1), upper = rim.step_size * float(i + 1);
   for (int turn = 0; turn < RIM_ROUNDS; ++turn) {
     float t0 = lower + (upper - lower) / 3.0f, t1 = upper - (upper - lower) / 3.0f;
@@ -65,7 +65,7 @@ INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) ro
   return dot(exit_direction, vec3(0.0f, 0.0f, 1.0f)) >= least_out && dot(exit_direction, normal_of(plane)) >= least_out;
 }
 
-// Returns the feature number of a contact around point i of the rim of plane k.
+// Returns the feature (SphereContact.feature) of a contact around point i of the rim of plane k.
 INLINE uint rim_feature(int i, uint k) {
   return SPHERE_SIDE_B | ((uint(i + 0x400000) & 0x7fffffu) + k * SPHERE_PLANE);
 }

@@ -1,10 +1,10 @@
-// The solids against which the nodes of a body are tested, and the movement of nodes of curved faces on them. The
+// Distance to the solids against which nodes are tested, and the movement of nodes along curved faces. The
 // includer defines before: field.h, cone.h, Samples, node_at(samples, i), cone_at(samples, i),
 // face_spacing_of(samples), Plane, normal_of(plane), offset_of(plane), is_wall(plane), Carry (rotation, offset), and
 // Solid: a field, or a plane of a bin whose walls end at `top` (m).
 
-// Returns the distance (m) to the solid behind a plane, and the direction out of it. A wall ends at the height of the
-// rim: it is the solid corner between its inner face and the plane of the rim, without an outer face.
+// Returns the distance (m) of p from the solid behind a plane, and the unit direction out of it. A wall ends at the
+// height `top` (m): it is the solid below the plane of the rim and behind its inner face, and has no outer face.
 INLINE float distance_to_plane(IN(Plane) plane, float top, IN(vec3) p, OUT(vec3) away) {
   vec3 up = vec3(0.0f, 0.0f, 1.0f), normal = normal_of(plane);
   float face = dot(normal, p) - offset_of(plane), above = dot(p, up) - top;
@@ -17,7 +17,7 @@ INLINE float distance_to_plane(IN(Plane) plane, float top, IN(vec3) p, OUT(vec3)
   return distance;
 }
 
-// Returns the distance (m, negative inside) and the direction out of the solid.
+// Returns the distance (m, negative inside) of p from a solid, and the unit direction out of the solid.
 INLINE float distance_to(IN(Solid) solid, IN(vec3) p, OUT(vec3) away) {
   if (solid.is_plane) return distance_to_plane(solid.plane, solid.top, p, away);
   return sample_field(solid.field, p, away);

@@ -10,9 +10,9 @@
 
 const float NEARLY_ALL = 0.99f;  // smallest cosine between an exit and its rotation into a cone: 8 degrees
 const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: within this angle, two faces count as lying on each other
-const float LEANS = 0.02f;       // sine of the angle by which a face is tilted against an edge that dips below it
+const float LEANS = 0.02f;       // sine of the smallest angle at which an edge of the sample dips below the face
 
-// Returns the error of the field (m) where the surface has an edge.
+// Returns the largest error of the field (m) near an edge of the surface.
 INLINE float error_of(IN(Field) field) {
   return field.ball > 0.0f ? 0.0f : 0.5f * field.cell;
 }
@@ -33,12 +33,12 @@ INLINE float exit_distance(IN(Field) field, IN(vec3) point, IN(vec3) along, floa
   return -1.0f;
 }
 
-// Emits the candidate of a sample. `place` is its present position, or the predicted one, which is view.ahead further.
-// In the latter case the contact is with the surface that the sample will face. Its gap is measured from the present
-// position, so that it does not press before the sample has arrived.
+// Emits the candidate of a sample. `place` (m, frame of the field) is its present position, or the predicted position,
+// which differs by view.ahead. In the latter case the contact is with the surface that the sample will face. Its gap is
+// measured from the present position, so that it does not press before the sample has arrived.
 //
-// If the normal was `turned`, it is that of the sample's surface: it moves with the sample's body, and the point moves
-// with the other body.
+// `away` is the unit normal out of the field's part, `number` the feature without bits. If the normal was `turned`, it
+// is that of the sample's surface: it moves with the sample's body, and the point moves with the other body.
 INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, bool turned, float distance_there, uint number) {
   float nearer = dot(away, view.ahead), distance = distance_there;
   vec3 point = place - view.ahead;
@@ -51,8 +51,8 @@ INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, bool turned,
     emit(view, surface - distance * away, away, distance, feature);
 }
 
-// Whether a contact may press on the sample's own surface along an exit. The cosine of the rotation into the sample's
-// cone must be at least `least`; `turned` is the rotated exit.
+// Rotates the direction `away` of an exit into the normal cone of the sample, which gives `turned`. Returns whether a
+// contact may press on the sample along it: the cosine of this rotation must be at least `least`.
 INLINE bool turn(IN(View) view, IN(Cone) cone, IN(vec3) away, float least, OUT(vec3) turned) {
   vec3 pressed = -turned_back(view.to_field.rotation, away);
   if (!turn_into_cone(cone, pressed, least)) return false;
@@ -60,25 +60,25 @@ INLINE bool turn(IN(View) view, IN(Cone) cone, IN(vec3) away, float least, OUT(v
   return true;
 }
 
-/// Whether the direction of an exit may be tilted because it leads to an edge or a corner.
+/// Returns whether an exit of the sample at `point` leads to an edge or a corner, so that its direction may be tilted.
 INLINE bool leans(IN(View) view, IN(vec3) point, IN(Exit) exit) {
   if (exit.kind != BY_THE_FIELD) return exit.kind == TO_AN_EDGE;
   return is_on_edge(view.other, view.field, point - exit.distance * exit.away);
 }
 
-// Whether the sample was inside by more than the resolution of the grid already when the step began.
+// Returns whether the sample was deeper than two cells inside the other part already when the step began.
 INLINE bool is_stuck(IN(View) view, IN(vec3) point, IN(Exit) exit) {
   float deep = -2.0f * view.field.cell;
   if (exit.kind != BY_THE_FIELD || exit.distance >= deep) return false;
   return exit.distance + max(-dot(exit.away, view.drift + cross(view.twist, point)), 0.0f) < deep;
 }
 
-// Emits a candidate if a contact may press on the sample's own surface along the exit. A face presses along its own
-// normal, whatever touches it: when the normal was rotated into the cone of an edge that did not touch, parts were
-// thrown sideways with up to a quarter of the speed at which they fell onto a plate. An exit to an edge or a corner is
-// rotated into the cone; otherwise, parts with flush edges would push each other sideways. The exit of a sample that is
-// stuck deep inside is rotated as well, because the nearest face is not significant there and the sample must come out
-// somehow.
+// Emits a candidate if a contact may press on the sample's own surface along the exit, and returns whether it did. A
+// face presses along its own normal: when this normal was rotated into the cone of an edge that did not touch, parts
+// were thrown sideways with up to a quarter of the speed at which they fell onto a plate. An exit to an edge or corner
+// is rotated into the sample's cone; otherwise, parts with flush edges would push each other sideways. The exit of a
+// sample that is stuck deep inside is rotated as well: its nearest face is not significant, and the sample must leave
+// the part in some direction.
 INLINE bool press(IN(View) view, IN(vec3) point, IN(Exit) exit, IN(Cone) cone, uint feature) {
   const float level = 0.999999f;  // cosine of 0.08 degrees, within which no rotation is needed
   bool stuck = is_stuck(view, point, exit);
@@ -91,9 +91,9 @@ INLINE bool press(IN(View) view, IN(vec3) point, IN(Exit) exit, IN(Cone) cone, u
   return true;
 }
 
-// Whether an edge of the sample crosses an edge of the face near an exit. The contact then presses along the normal of
-// both edges, and the exit through the face is not used: two nodes, one on each side, would otherwise hold each other
-// like a wedge.
+// Returns whether an edge of the sample crosses an edge of the face near an exit. The contact then presses along the
+// common normal of both edges, and the exit through the face is not used: otherwise, two nodes, one on each side, would
+// hold each other like a wedge.
 INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) away) {
   uint bounds = bounds_of(cone);
   if (bounds == SPHERE_AXIS) return false;
@@ -105,8 +105,8 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
   return false;
 }
 
-// Returns the exits of a sample in a crease: each near wall presses, except those from which another face, that of a
-// sharp edge beside them, is a shorter exit.
+// Returns the exits of a sample in a crease: each near wall is an exit, except walls that are deeper than the face of a
+// sharp edge beside them; that face is then the exit.
 INLINE Exits exits_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
   float flush = 0.002f * view.field.cell, soonest = -view.field.cell;
   Exits exits;
@@ -244,31 +244,31 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
   offer_exits(view, at, exits, creased, cone, feature);
 }
 
-// Whether a node at which the field is `distance` may touch.
+// Returns whether a node at the given distance (m) from the other part may have a contact after slide().
 INLINE bool node_may_touch(IN(View) view, float distance) {
   return distance < view.margin + sag_of(view.samples);
 }
 
-// Moves the node to where it is deepest. Returns whether it touches.
+// Moves a node of a curved face to its deepest point (slide()). Returns whether a contact is found there.
 INLINE bool touches_with_node(IN(View) view, uint node, INOUT(Touch) touch) {
   slide(view.samples, view.own, view.to_field, node, solid_of(view.field), touch);
   return touch.distance < view.margin;
 }
 
-// Whether an edge may touch, by the distances at its ends: the distance decreases along the edge by no more than the
-// length of the edge.
+// Returns whether an edge may have a contact, by the distances (m) at its ends p and q: along the edge, the distance
+// decreases by no more than the length.
 INLINE bool edge_may_touch(IN(View) view, IN(Edge) edge, float distance_p, float distance_q) {
   return 0.5f * (distance_p + distance_q - length_of(edge)) < view.margin;
 }
 
-// Whether an edge may cross an edge of the other part although it has no deepest point of its own: where edges are
-// nearly parallel or end, one of them dips below the other by less than the resolution of the grid.
+// Returns whether an edge may cross an edge of the other part although its deepest point is an end. Where edges
+// are nearly parallel or end, one of them dips below the other by less than the resolution of the grid.
 INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
   return edge.sharp != 0u && radius_of(view.samples) <= 0.0f && abs(distance) <= view.field.cell;
 }
 
-// Tests edge e between its two ends. A contact presses where it crosses an edge of the other part. Returns whether
-// `touch` must be offered in addition.
+// Tests edge e between its ends p and q, and emits a candidate where it crosses an edge of the other part. Returns
+// whether offer() must be called for `touch`, the deepest point of the edge.
 INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   IN(Edge) edge = edge_at(view.samples, e);
   bool lowest = descend(view.field, p, q, touch);

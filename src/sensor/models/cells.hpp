@@ -7,8 +7,8 @@
 
 namespace bin_scenes::cells {
 
-constexpr int side = 4, per_pixel = side * side;  ///< row-major
-constexpr int corners[4] = {0, side - 1, per_pixel - side, per_pixel - 1};
+constexpr int side = 4, per_pixel = side * side;                            ///< cells are numbered row by row
+constexpr int corners[4] = {0, side - 1, per_pixel - side, per_pixel - 1};  ///< cells at the corners
 
 /// Returns the position of a cell's sample point within the pixel, -0.5 to 0.5.
 constexpr double across(int k) {

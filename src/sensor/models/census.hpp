@@ -12,25 +12,25 @@
 
 namespace bin_scenes {
 
-/// Bits of a signature from a window with that odd edge (pixel).
+/// Returns the number of bits of the signature of a window with an odd edge length (pixels).
 constexpr int census_bits(int edge) {
   return (edge * edge - 1) / 2;
 }
-/// Largest odd window whose costs, one for each bit of each pixel, fit into 15 bits.
+/// Returns the largest odd window (pixels) over which the cost of signatures from windows of `edge` fits into 15 bits.
 constexpr int most_census_window(int edge) {
   int window = 1;
   while (census_bits(edge) * (window + 2) * (window + 2) < 32767) window += 2;
   return window;
 }
 
-/// Disparities (pixel) of the first image's pixels, at least `least_disparity`; NaN unmatched. The cost of a disparity
-/// is the number of bits that differ, summed over a window; the least one wins if no other but its two neighbours comes
-/// within StereoPipeline::second_peak, and if the second image's pixel agrees within max_difference. Two lines of the
-/// same slope through the cost and its neighbours give fractions of a pixel (equiangular fit: Shimizu, Okutomi 2005,
-/// "Sub-pixel estimation error cancellation on area-based matching"). A step between surfaces of less than about two
-/// pixels is blended over the window. At a larger one two disparities fit about equally well, so that a gap opens along
-/// the edge: at least 2 * second_peak windows wide, because at most half of the bits of a wrong disparity differ.
-/// Unlike in `match`, pixels without texture and speckles are not removed.
+/// Returns the disparities (pixels) of the first image, at least `least_disparity`; NaN means unmatched. The cost of a
+/// disparity is the number of bits that differ, summed over a window. The lowest cost wins if none but its two
+/// neighbours comes within StereoPipeline::second_peak, and if the pixel of the second image agrees within
+/// max_difference. Two lines of equal slope through the cost and its neighbours give fractions of a pixel (equiangular
+/// fit: Shimizu, Okutomi 2005, "Sub-pixel estimation error cancellation on area-based matching"). Across a step of less
+/// than about two pixels, disparities are blended over the window. At a larger step, two disparities fit about equally
+/// well, so that a gap opens along the edge: at least 2 * second_peak windows wide, because at most half of the bits of
+/// a wrong disparity differ. Unlike in `match`, pixels without texture and speckles are not removed.
 std::vector<float> match_census(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
                                 const StereoPipeline& pipeline, int least_disparity);
 

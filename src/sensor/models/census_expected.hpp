@@ -13,28 +13,28 @@ namespace bin_scenes {
 
 class ExpectedCensus {
  public:
-  /// @param pitch  pixels of the projector per pixel of the camera
+  /// @param pitch  size of a camera pixel in pixels of the projector
   ExpectedCensus(const StereoSettings& settings, const StereoPipeline& pipeline, double pitch);
 
-  /// @param disparities  in: the true ones (pixel), row-major, NaN where nothing can be matched. Out: those that win,
-  ///                     and NaN where none beats the others by enough. At 6 % of such pixels that have no match among
-  ///                     their eight neighbours, a wrong disparity wins, as it does at few pixels of real images.
+  /// @param disparities  in: true disparities (pixels), row-major, NaN where nothing can be matched. Out: the
+  ///                     disparities that win, NaN where none wins clearly. At 6 % of the pixels that have no match in
+  ///                     their 3 x 3 surroundings, a wrong disparity wins, as in real images.
   void match(int width, int height, const Random& random, std::vector<float>& disparities) const;
 
-  /// Of a pixel: the mean disparity of the surface that it belongs to, over the window, and the share of the window
-  /// that agrees with it less the share that does not; pixels that cannot be matched count for neither.
+  /// Disparity: mean over the window of the surface that the pixel shows. Margin: share of the window that agrees with
+  /// it, minus the share that does not; pixels that cannot be matched count for neither.
   struct Match {
     float disparity, margin;
   };
   Match match_of(const std::vector<float>& disparities, int width, int height, int column, int row) const;
 
-  /// A wrong disparity: the least one of the window plus `share` (0 to 1) of the range of disparities in the window.
+  /// Returns a wrong disparity: the smallest one in the window plus `share` (0 to 1) of the range in the window.
   float false_match(const std::vector<float>& disparities, int width, int height, int column, int row,
                     double share) const;
 
  private:
-  int reach_;           ///< pixel, of the window to each side
-  double least_;        ///< margin
+  int reach_;           ///< pixels, half width of the window
+  double least_;        ///< smallest margin with which a disparity wins
   double fluctuation_;  ///< standard deviation of the margin
 };
 

@@ -9,19 +9,19 @@
 
 namespace bin_scenes {
 
-/// One iteration passes to the right, to the left, down and up. In a pass a pixel becomes alpha of itself and
-/// 1 - alpha of the result of the pixel before it, if both had values before the pass and these differ by less than
-/// delta; otherwise it stays. Far from borders and larger steps, passes in both directions are a convolution with
-/// alpha / (2 - alpha) * (1 - alpha)^|k|.
+/// Smooths disparities but keeps steps. Each iteration has four passes: to the right, to the left, down and up. In a
+/// pass, a pixel becomes alpha * its value + (1 - alpha) * the result of the previous pixel, if both were valid before
+/// the pass and differed by less than delta; otherwise, it keeps its value. Away from borders and larger steps, a pair
+/// of opposite passes is a convolution with alpha / (2 - alpha) * (1 - alpha)^|k|, where k is the offset in pixels.
 void filter_spatially(const SpatialFilter& settings, int width, int height, std::vector<float>& disparities);
 
-/// Standard deviation that correlated_noise() of this window has after the filter, of 1 before it, where no difference
-/// reaches delta.
+/// Returns the standard deviation of correlated_noise() of this window (pixels) after the spatial filter, if it is 1
+/// before the filter and no difference of neighbours reaches delta.
 double spatially_filtered_noise(const SpatialFilter& settings, double window);
 
-/// The temporal filter of librealsense: a pixel becomes alpha of itself and 1 - alpha of its last result if both differ
-/// by less than delta; otherwise it starts again. A missing pixel takes its last result if it was
-/// valid in as many of the previous images as `persistence` demands.
+/// The temporal filter of librealsense: a pixel becomes alpha * its value + (1 - alpha) * its previous result if both
+/// differ by less than delta; otherwise, averaging restarts with its value. A missing pixel takes its previous result
+/// if it was valid in as many of the previous images as `persistence` requires.
 class TemporalAverage {
  public:
   explicit TemporalAverage(const TemporalFilter& settings) : settings_(settings) {}
@@ -32,23 +32,23 @@ class TemporalAverage {
   bool persists(unsigned history) const;
 
   TemporalFilter settings_;
-  std::vector<float> last_;             ///< results; NaN before the first
-  std::vector<std::uint8_t> measured_;  ///< in which of the last eight images; bit 0: the last one
+  std::vector<float> last_;             ///< results for the latest image; NaN before the first one
+  std::vector<std::uint8_t> measured_;  ///< by pixel: the last eight images in which it was valid; bit 0: the latest
 };
 
-/// Standard deviation after the filter of noise that differs in each image, of 1 before it, where no difference reaches
-/// delta: the square root of alpha / (2 - alpha) plus what the first image still contributes.
+/// Returns the standard deviation, after the temporal filter, of noise that is independent in each image and is 1
+/// before. No difference must reach delta. It is sqrt(alpha / (2 - alpha) + remaining share of the first image).
 double temporally_filtered_noise(const TemporalFilter& settings);
 
 /// Fills each missing pixel from its neighbours to the left, above and below, row by row, so that filled pixels are
 /// used as well. `farthest` takes the smallest of their disparities, `nearest` the largest.
 void fill_holes(HoleFilling filling, int width, int height, std::vector<float>& disparities);
 
-/// One value for each square of `factor` pixels: the median of the depths (the smaller of the two in the middle) up to
-/// a factor of 3, from 4 on their mean, of those that exist; NaN without any. Incomplete squares are left out.
+/// Returns one disparity for each square of `factor` x `factor` pixels: for factors up to 3 the (upper) median of the
+/// valid ones, else that of their mean depth; NaN if none is valid. Incomplete squares are dropped.
 std::vector<float> decimated(int factor, int width, int height, const std::vector<float>& disparities);
 
-/// The nearest multiple of the step; the disparity itself if the step is 0.
+/// Returns the multiple of `step` (pixels) that is nearest to the disparity, or the disparity itself if the step is 0.
 double rounded_to_step(double disparity, double step);
 
 }  // namespace bin_scenes

@@ -15,10 +15,10 @@ namespace bin_scenes {
 /// twenty times as bright as its median, which levels that are linear in the signal would leave nearly black.
 constexpr double median_level = 120.0, bright_level = 245.0, gray_gamma = 2.2;
 
-/// Returns the levels (0 to 255, row-major) of pixels that receive this light, with the imager's noise. Without a part
-/// in view, the exposure is that of everything that is lit.
-/// @param labels  0 for what is no part
-/// @param random  of the noise
+/// Returns the grey levels (0 to 255, row-major) of pixels that receive this light, with the imager's noise. If no part
+/// is in view, all lit pixels determine the exposure.
+/// @param labels  labels of the parts, row-major; 0: no part
+/// @param random  random numbers of the noise
 std::vector<std::uint8_t> exposed_for_parts(std::vector<float> light, const std::vector<std::uint16_t>& labels,
                                             int width, const Imager& imager, const Random& random);
 

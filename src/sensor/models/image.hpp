@@ -10,14 +10,14 @@
 
 namespace bin_scenes {
 
-/// Exact depth, the grey value as intensity and its SNR, and the picture itself.
-/// @param sensor  resolved()
-/// @param paths, noise  keys of the random numbers
+/// Takes an image: fills `picture`, and returns exact depth, the grey value as intensity, and its SNR.
+/// @param sensor        sensor with all settings filled in by resolved()
+/// @param paths, noise  random numbers of the light paths and of the sensor noise
 Measurement take_image(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
                        const Random& paths, const Random& noise, Picture& picture);
 
-/// Signal / radiance: a white matte surface that faces the camera, at reference_distance along its axis or, if that is
-/// 0, at the median depth of the view, has the signal `exposure` where nothing occludes it. 0 where no lamp lights it.
+/// Returns signal / radiance, with which an unoccluded white matte surface facing the camera at reference_distance (if
+/// 0: at the median depth of the view) has the signal `exposure`; 0 if no lamp lights that surface.
 double image_gain(const Lamps& lamps, const Sensor& sensor, const View& view);
 
 }  // namespace bin_scenes

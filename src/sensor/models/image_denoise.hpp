@@ -12,7 +12,7 @@
 
 namespace bin_scenes {
 
-/// All by pixel.
+/// Denoises `radiance` in place. The arguments contain one value for each pixel, row-major.
 void denoise(const View& view, const std::vector<PathTracer::Grain>& grain, std::vector<Rgb>& radiance);
 
 }  // namespace bin_scenes

@@ -5,7 +5,7 @@
 /// camera has one sample per row (or column) along the line. In each of them, the device searches the peak of the line
 /// across columns (or rows), and the ray of the peak intersects the sheet at the measured point.
 ///
-/// Light that other surfaces reflect adds to the lines. Where it is brightest beside them, it is mistaken for the line
+/// Light that other surfaces reflect adds to the image. Its brightest spot beside a line can be mistaken for the line
 /// (sheet_glow.hpp).
 #pragma once
 
@@ -24,13 +24,13 @@
 namespace bin_scenes {
 
 struct Profiles {
-  int width = 0, height = 0;                  ///< samples of a profile, profiles
+  int width = 0, height = 0;                  ///< number of samples of a profile; number of profiles
   std::vector<Validity> validity;             ///< row-major, like all images below
-  std::vector<std::array<float, 3>> points;   ///< m, in the frame of the camera's given pose; NaN where not valid
-  std::vector<std::array<float, 3>> normals;  ///< true, same frame
-  std::vector<std::uint16_t> label;           ///< true, of the line that was found
-  std::vector<float> intensity;               ///< signal of the peak
-  std::vector<float> snr;                     ///< signal / noise and speckle of one pixel
+  std::vector<std::array<float, 3>> points;   ///< m, in the optical frame of Setup::camera_pose; NaN where not valid
+  std::vector<std::array<float, 3>> normals;  ///< true unit normals, in the same frame
+  std::vector<std::uint16_t> label;           ///< true label of the part whose line was found; 0: no part
+  std::vector<float> intensity;               ///< signal of the line's peak
+  std::vector<float> snr;                     ///< signal / standard deviation of the noise and speckle of one pixel
 };
 
 class LaserLine {
@@ -38,41 +38,41 @@ class LaserLine {
   struct Setup {
     Lens camera;
     Pose camera_pose, laser_pose;  ///< in the bin frame, at the centre of the scan; the sheet is the laser's y-z plane
-    double line_width = 3e-4;      ///< m, between the points of 1/e^2
-    Vec3 scan = 5e-4 * Vec3::UnitX();  ///< m, step from a profile to the next, bin frame
+    double line_width = 3e-4;      ///< m, between the points of 1/e^2 of the peak
+    Vec3 scan = 5e-4 * Vec3::UnitX();  ///< m, displacement from one profile to the next, bin frame
     int profiles = 1000;
     LaserLineSettings settings;
     ImagerSettings imager;
     bool noise = true;
-    double near = 0.0, far = 1e9;     ///< m, depths that the camera reports
-    IndirectField::Setup indirect{};  ///< rays: so many for 32 rays of the fan
+    double near = 0.0, far = 1e9;     ///< m, range of depths that the camera reports
+    IndirectField::Setup indirect{};  ///< Setup::samples: number of paths for 32 rays of the fan
   };
-  /// @param key  of the indirect light's samples
+  /// @param key  random numbers for the samples of indirect light
   LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup,
             const Random& key = Random(0, 0, Stream::sensor));
 
   Profiles scanned(const Random& random) const;
-  /// Standard deviation of the depth (m) of the centre sample of the centre profile, over lines anywhere between two
-  /// rows: drawn, as the peak's is no formula. NaN where there is no line.
+  /// Returns the standard deviation of the depth (m) of the centre sample of the centre profile, estimated by random
+  /// trials with lines at any position between two rows. NaN where there is no line.
   double depth_sigma() const;
 
  private:
-  /// Light of the laser on a surface, as one sample of the camera sees it.
+  /// Light of the laser on a surface, as one sample of the camera sees it: its position in the image and in the scene.
   struct Line {
     int sample;
     double across, depth,
-        signal;          ///< pixel, m along the optical axis, share of the full well; 0: other surfaces' light
-    Vec3 point, normal;  ///< bin frame
+        signal;          ///< pixel, m along the optical axis, share of the full well; signal 0: reflected light
+    Vec3 point, normal;  ///< point on the surface (m) and its unit normal, bin frame
     std::uint16_t label;
     bool visible;
   };
   /// The lines that the camera can see in one profile.
   struct Lines {
-    std::vector<Line> lines;      ///< by sample
-    std::vector<Validity> codes;  ///< by sample: why there is no line
+    std::vector<Line> lines;      ///< the lines, ordered by sample
+    std::vector<Validity> codes;  ///< for each sample: validity code that states why there is no line
   };
   struct Carriage {
-    Vec3 laser, eye;  ///< bin frame, at one profile
+    Vec3 laser, eye;  ///< positions of laser and camera in the bin frame, at one profile
   };
 
   double along(const Eigen::Vector2d& pixel) const { return upright_ ? pixel.y() : pixel.x(); }
@@ -83,7 +83,7 @@ class LaserLine {
     return setup_.camera.project(to_camera_ * (point - at.eye));
   }
   void find_lines(const Carriage& at, const std::vector<Hit>& hits, Lines& lines) const;
-  /// Two rays of the fan and the samples that show where they meet a plane.
+  /// Two rays `a` and `b` of the fan (indices), and the samples in whose columns they meet the plane of a surface.
   struct Span {
     std::size_t a;
     double at_a;
@@ -103,7 +103,7 @@ class LaserLine {
   Carriage carriage(const Vec3& offset) const {
     return {setup_.laser_pose.position + offset, setup_.camera_pose.position + offset};
   }
-  /// A line as the device reads it, by the longest exposure that does not saturate.
+  /// A line as the device measures it, with the longest exposure that does not saturate.
   struct Reading {
     LinePeak peak;
     double scale;  ///< exposure / LaserLineSettings::power
@@ -113,7 +113,7 @@ class LaserLine {
   double noise_of(double signal) const;
   int reach_of(double sigma) const {
     return static_cast<int>(std::ceil(4.0 * sigma)) + 2;
-  }  ///< half the width of a window (pixels)
+  }  ///< returns half the width of the window that is searched (pixels)
 
   const Scenery& scenery_;
   const Surfaces& surfaces_;
@@ -123,9 +123,9 @@ class LaserLine {
   bool upright_;  ///< the line is vertical in the image, with one sample for each row
   int samples_;
   std::vector<Vec3> directions_;  ///< unit directions of the laser's fan of rays, bin frame
-  Mat3 to_camera_;                ///< from the bin frame
-  Vec3 sheet_;                    ///< normal, bin frame
-  double reference_ = 1.0;        ///< m from the laser
+  Mat3 to_camera_;                ///< rotation from the bin frame to the camera frame
+  Vec3 sheet_;                    ///< normal of the sheet of light, bin frame
+  double reference_ = 1.0;        ///< m, distance from the laser at which the exposure is defined
   std::vector<double> scales_;    ///< exposures / LaserLineSettings::power, the longest first
 };
 

@@ -8,14 +8,14 @@
 namespace bin_scenes {
 
 struct LinePeak {
-  double row;     ///< from the window's first row
-  double height;  ///< the largest signal of the line
+  double row;     ///< position of the peak, in rows from the first row of the window
+  double height;  ///< signal of the brightest row
 };
 
 /// Finds the brightest row of a window with sub-pixel accuracy, by the parabola through the logarithms of its signal
 /// and of the signals a line's width away; it is exact for a Gaussian line without noise. Returns none if the brightest
 /// row is below `threshold` or at an end of the window.
-/// @param sigma  rows, width of the line that the device expects
+/// @param sigma  standard deviation of the line's profile that the device expects (rows)
 std::optional<LinePeak> find_line(const float* signals, std::size_t count, double sigma, double threshold);
 
 }  // namespace bin_scenes

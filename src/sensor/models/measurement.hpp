@@ -10,13 +10,13 @@
 
 namespace bin_scenes {
 
-/// Row-major, as the image of the sensor.
+/// Measured values of all pixels, row-major in the size of the sensor's image.
 struct Measurement {
   std::vector<double> depth;  ///< m; NaN where the code is not valid
   std::vector<Validity> validity;
   std::vector<float> intensity;  ///< mean signal / full well, at most 1
   std::vector<float> light;      ///< light of the grey image, in any unit and without noise; empty: it is `intensity`
-  std::vector<float> snr;        ///< signal / standard deviation of its noise, by formula; of no use where not valid
+  std::vector<float> snr;        ///< signal / predicted standard deviation of its noise; meaningless where not valid
 
   explicit Measurement(std::size_t pixels)
       : depth(pixels, std::numeric_limits<double>::quiet_NaN()),

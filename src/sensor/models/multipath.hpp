@@ -11,24 +11,24 @@
 
 namespace bin_scenes {
 
-/// The camera's light stands at its lens and lights its image, no more.
+/// Computes the indirect light of a camera whose light source is at its lens and illuminates exactly its field of view.
 class Multipath {
  public:
-  /// @param modulation  MHz
+  /// @param modulation  modulation frequency (MHz)
   Multipath(const Scenery& scenery, const View& view, const Surfaces& surfaces, const IndirectField::Setup& setup,
             double modulation, const Random& rays);
 
-  /// Returns the indirect light of a pixel, in units of reflected / distance^2 of direct light, with the phase by which
-  /// it arrives later.
+  /// Returns the indirect light of a pixel as a phasor, in the unit Lit::reflected / distance^2 (1/m2) of direct light.
+  /// Its argument is the phase by which it arrives later than direct light.
   std::complex<double> at(std::size_t pixel) const;
-  /// Returns the distance (m) that belongs to a phase.
+  /// Returns the distance (m) of a surface whose direct light has this phase (rad).
   double range(double phase) const { return 0.5 * phase / wave_; }
 
  private:
   IndirectField::Pattern phasors(double unit) const;
 
   const View& view_;
-  double wave_;  ///< rad/m of the light's path
+  double wave_;  ///< phase per length of the light path (rad/m)
   ProjectorLamp lamp_;
   IndirectField field_;
 };

@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// @param window  pixel: the autocorrelation is a Gaussian as wide as that of a box of this many pixels
+/// @param window  pixels: the autocorrelation is a Gaussian with the standard deviation of that of a box of this width
 /// @return        width * height numbers, row-major, mean 0, standard deviation 1
 std::vector<float> correlated_noise(int width, int height, double window, const Random& random);
 

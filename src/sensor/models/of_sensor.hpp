@@ -20,20 +20,20 @@ namespace bin_scenes {
 
 extern const Names<MixedPixels> mixed_pixels;
 
-/// Throws an input Error for a baseline of 0.
+/// Throws an input Error that names `key` if the baseline (m) is 0.
 void check_baseline(const std::string& key, double baseline);
 
 IndirectField::Setup indirect_of(const Sensor& sensor);
 Random random_of(const Draw& draw);
-/// The key of the random samples of indirect light.
+/// Returns the random numbers for the samples of indirect light.
 Random rays_of(const Draw& draw);
-/// Takes over the truth of the view.
+/// Copies the true depth of the view to the image, and moves its true labels there.
 void add_truth(RangeImage& image, View&& view);
 RangeImage image_of(View&& view, Measurement&& measured);
-/// Adds the grey image of a measurement with light, if it is wanted.
-/// @param noise  whether the camera's noise is added
+/// Returns the image of a measurement. If Draw::gray is set, it has a grey image, made from Measurement::light.
+/// @param noise  whether the grey image has the noise of the camera
 RangeImage image_with_gray(View&& view, Measurement&& measured, const Sensor& sensor, bool noise, const Draw& draw);
-/// Measures with a model that supports both fidelities.
+/// Measures with a model that supports both fidelities, in the fidelity that the sensor requests.
 template <class Model>
 RangeImage image_by(const Model& model, const Sensor& sensor, View&& view, const Draw& draw) {
   const Random random = random_of(draw);
@@ -42,10 +42,10 @@ RangeImage image_by(const Model& model, const Sensor& sensor, View&& view, const
                          sensor.noise, draw);
 }
 
-/// A plate large enough for any view, that far along the sensor's optical axis, turned about the camera's x.
+/// A plate that fills any view: `distance` (m) along the optical axis, turned by `incidence` (rad) about camera x.
 struct Plate {
   Plate(const Sensor& sensor, double distance, double incidence, double albedo);
-  /// Returns the view of the plate's centre, with as many pixels as the surroundings of one pixel need.
+  /// Returns a view of 9 x 9 pixels around the centre of the image, as many as measuring the central pixel requires.
   View seen_at_center() const;
 
   Targets targets;

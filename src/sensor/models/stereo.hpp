@@ -20,34 +20,34 @@ class Stereo {
  public:
   struct Setup {
     Lens projector;
-    Pose projector_pose;  ///< optical frame in the bin frame
+    Pose projector_pose;  ///< pose of the projector's optical frame in the bin frame
     StereoSettings settings;
     ImagerSettings imager;
     bool noise = true;
-    double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+    double near = 0.0, far = 1e9;  ///< m, range of depths that the camera reports
     IndirectField::Setup indirect{};
     StereoPipeline pipeline{};
-    bool gray = true;  ///< whether Measurement::light is filled
+    bool gray = true;  ///< whether to compute the light of the grey image (Measurement::light)
   };
-  /// @param random  of the indirect light's samples
-  /// @param view  of the first camera, whose images are rectified: no distortion. With noise, what is measured has
-  ///              1 / StereoPipeline::decimation of its width and height
+  /// @param random  random numbers for the samples of indirect light
+  /// @param view    view of the first camera, whose images are rectified and undistorted. With noise, the measurement
+  ///              has 1 / StereoPipeline::decimation of its width and height
   Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
          const Random& random = Random(0, 0, Stream::sensor));
 
   Measurement analytic(const Random& random) const;
   Measurement decoded(const Random& random) const;
 
-  /// Standard deviation of the depth of a pixel (m), by the analytic form's formula; NaN where no light falls.
+  /// Returns the predicted standard deviation of the depth of a pixel (m); NaN where no light of the projector falls.
   double depth_sigma(std::size_t pixel) const;
-  /// Disparity (pixel) of a depth (m), and back.
+  /// Returns the disparity (pixels) of a depth (m), or the depth of a disparity.
   double of_disparity(double value) const { return view_.lens.fx * setup_.settings.baseline / value; }
 
-  /// The two images, each as 8 bit: what the matcher is given.
+  /// The images of both cameras that the matcher receives: 8 bits, row-major.
   struct Pair {
     std::vector<std::uint8_t> first, second;
   };
-  /// @param scale  exposure / ImagerSettings::exposure
+  /// @param scale  exposure time, relative to ImagerSettings::exposure
   Pair images(const Random& random, double scale = 1.0) const;
 
  private:
@@ -57,7 +57,7 @@ class Stereo {
   double ambient(const View& view, std::size_t pixel) const;
   std::vector<float> signals(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze) const;
   std::vector<float> even_light() const;
-  /// Of both cameras, without noise.
+  /// Signals of the pixels of both cameras without noise, row-major.
   struct Signals {
     std::vector<float> first, second;
   };
@@ -65,7 +65,7 @@ class Stereo {
   std::vector<std::uint8_t> image(std::vector<float> signals, const Random& random, double scale) const;
   Pair expose(const Signals& signals, const Random& random, double scale) const;
   std::vector<float> matched(const Signals& signals, const Random& random, Measurement& out) const;
-  /// The longest exposure of a signal that does not saturate, else the shortest.
+  /// Returns the largest element of scales_ with which this signal does not saturate, or the smallest one if all do.
   double scale_of(double signal) const;
   void decimate(std::vector<float>& disparities, Measurement& out) const;
   void filter_one(std::vector<float>& disparities) const;
@@ -86,13 +86,13 @@ class Stereo {
   const Surfaces& surfaces_;
   Setup setup_;
   Imager imager_;
-  Pose second_;  ///< camera, optical frame in the bin frame
+  Pose second_;  ///< pose of the second camera's optical frame in the bin frame
   std::vector<Lit> lit_;
   double gain_ = 0.0;
   std::vector<double> scales_;  ///< exposures / ImagerSettings::exposure, the longest first
-  std::vector<float> pattern_;  ///< pattern of dots; empty: constant light
-  double brightness_ = 1.0;     ///< mean of the pattern
-  Random rays_;                 ///< random numbers of indirect light
+  std::vector<float> pattern_;  ///< light of the dot pattern, row-major; empty: constant light
+  double brightness_ = 1.0;     ///< mean of the dot pattern
+  Random rays_;                 ///< random numbers for the samples of indirect light
   std::vector<float> haze_;     ///< indirect light of the first camera's pixels (signal); empty: none
 };
 
@@ -102,15 +102,15 @@ class Stereo {
 std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
                          const StereoPipeline& pipeline, const Imager& imager, int least_disparity);
 
-/// Whether the window around each pixel varies by StereoSettings::min_texture more than noise does.
+/// Returns for each pixel whether its window varies by StereoSettings::min_texture more than noise does.
 std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, int height,
                            const StereoSettings& settings, const Imager& imager);
 
-/// Moves each disparity by up to a pixel to where the windows of both images differ least (Lucas, Kanade 1981, "An
-/// iterative image registration technique"). The matcher's own parabola errs by up to 0.3 pixel towards whole ones.
+/// Moves each disparity by up to one pixel to where the windows of both images differ least (Lucas, Kanade 1981, "An
+/// iterative image registration technique"). The matcher's own parabola errs by up to 0.3 pixel towards integers.
 void refine(const Stereo::Pair& images, int width, int height, int window, std::vector<float>& disparities);
 
-/// Dots of a projector, blurred as a camera sees them whose pixels are `ratio` of the projector's: row-major, 0 to 1.
+/// Returns the dots of a projector, row-major, 0 to 1, as blurred by camera pixels of `ratio` projector pixels each.
 std::vector<float> dot_pattern(int width, int height, double dots, DotLayout layout, double ratio);
 
 }  // namespace bin_scenes

@@ -38,48 +38,48 @@ class StructuredLight {
  public:
   struct Setup {
     Lens projector;
-    Pose projector_pose;  ///< optical frame in the bin frame
+    Pose projector_pose;  ///< pose of the projector's optical frame in the bin frame
     StructuredLightSettings settings;
     ImagerSettings imager;
     bool noise = true;
-    double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+    double near = 0.0, far = 1e9;  ///< m, range of depths that the camera reports
     IndirectField::Setup indirect{};
-    bool only_analytic = false;  ///< the indirect light of images may be less fine: few pixels need them
+    bool only_analytic = false;  ///< only analytic() is used: the few images need only coarse indirect light
     ReflectionFilter reflection{};
-    bool gray = true;  ///< whether Measurement::light is filled
+    bool gray = true;  ///< whether to compute the light of the grey image (Measurement::light)
   };
-  /// @param random  of the indirect light's samples
+  /// @param random  random numbers for the samples of indirect light
   StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
                   const Random& random = Random(0, 0, Stream::sensor));
 
   Measurement analytic(const Random& random) const;
   Measurement decoded(const Random& random) const;
 
-  /// Standard deviation of the depth of a pixel (m), by the formula; NaN where no light falls.
+  /// Returns the predicted standard deviation of the depth of a pixel (m); NaN where no light of the projector falls.
   double depth_sigma(std::size_t pixel) const;
 
  private:
   using Vec2 = Eigen::Vector2d;
   struct Pixel {
     std::size_t index;  ///< index of the pixel in the image, row-major
-    Vec3 ray, normal;   ///< through its centre (z = 1) and of its face, camera frame
-    double plane;       ///< depth * normal . ray: what all points of the face share
+    Vec3 ray, normal;   ///< ray through its centre (z = 1), and normal of the face that it sees; camera frame
+    double plane;       ///< depth * normal . ray (m), which is the same for all points of the face
   };
   struct Fringe {
-    double mean, amplitude;  ///< A and B, shares of the full well
+    double mean, amplitude;  ///< A and B of the formula above, as shares of the full-well capacity
   };
   struct Received {
     double column = 0.0;
     Fringe fringe{0.0, 0.0};
     bool mixed = false;
-    double second_column = 0.0, second_amplitude = 0.0;  ///< values of the second fringe, if there is one
+    double second_column = 0.0, second_amplitude = 0.0;  ///< column and amplitude of the second fringe, if there is one
   };
   class Strip;
   struct Blend;
   class Normals;
 
-  /// Channels of the indirect light, for a white of 1: those of the second fringe only if there is one. After them, the
-  /// images of both.
+  /// Channels of the indirect light for a projector white of 1; those of the second fringe exist only if there is one.
+  /// They are followed by one channel for each image of the fringes.
   enum Channel { white, cosine, sine, second_cosine, second_sine, most_channels };
   int channels() const { return second_ ? most_channels : second_cosine; }
   int images() const { return fringes_.images() + (second_ ? second_->images() : 0); }
@@ -129,15 +129,15 @@ class StructuredLight {
   Triangulation triangulation_;
   PixelRays rays_;
   ClearSight sight_;
-  SpotDrawing spots_, shades_;  ///< drawings as seen from the camera, and from the projector
-  Mat3 turn_;                   ///< orientation of the camera
+  SpotDrawing spots_, shades_;  ///< draw the surface at given points of the camera's image, and of the projector's
+  Mat3 turn_;                   ///< rotation from the camera frame to the bin frame
 
   // The light on the surface that the centre of each pixel sees, row-major.
-  std::vector<Validity> codes_;  ///< valid, nothing, shadow or outside
-  std::vector<double> columns_;  ///< column of the projector
-  std::vector<double> whites_;   ///< reflected share / squared distance to the projector (1/m2)
-  std::vector<double> planes_;   ///< Pixel::plane
-  std::vector<double> worn_;     ///< share of ambient light sent back; empty: no surface has a texture
+  std::vector<Validity> codes_;  ///< validity code: valid, nothing, shadow or outside
+  std::vector<double> columns_;  ///< column of the projector's image
+  std::vector<double> whites_;   ///< light of the projector's white: Lit::reflected / distance^2 (1/m2)
+  std::vector<double> planes_;   ///< Pixel::plane (m)
+  std::vector<double> worn_;     ///< share of ambient light that is reflected; empty: no surface has a texture
   std::vector<double> scales_;   ///< exposures / ImagerSettings::exposure, the longest first
   double gain_ = 0.0;            ///< signal of the projector's white = gain * white
 

@@ -22,39 +22,39 @@ namespace bin_scenes {
 class StructuredLight::Strip {
  public:
   static constexpr int per_pixel = cells::per_pixel;
-  using Values = Eigen::Array<float, per_pixel, 1, Eigen::DontAlign>;  ///< one a cell
-  /// White, times cosine and sine of a fringe's phase.
+  using Values = Eigen::Array<float, per_pixel, 1, Eigen::DontAlign>;  ///< one value for each cell
+  /// White light of each cell, times the cosine and the sine of the phase of a fringe.
   struct Phasors {
     Values cosine, sine;
   };
-  /// The cells of one pixel. Without light, white is 0.
+  /// Light and depth of the cells of one pixel. White is 0 in cells that the projector does not light.
   struct Cells {
     Values column, white, depth;
     Phasors phasors;
-    int brightest = 0;     ///< cell
-    float diffuse = 0.0f;  ///< mean share of ambient light sent back
-    bool outside = false;  ///< a part lies outside the projector's field
+    int brightest = 0;     ///< index of the brightest cell
+    float diffuse = 0.0f;  ///< mean share of ambient light that is reflected
+    bool outside = false;  ///< whether some of the pixel is outside the projector's field
   };
 
-  /// @param rows  first to last - 1
+  /// Prepares the rows from `first` to last - 1 of the image.
   Strip(const StructuredLight& model, int first, int last);
 
-  /// Whether the light of a pixel (of the strip's rows) has to be summed over cells.
+  /// Whether the light of a pixel in the rows of this strip has to be summed over cells.
   bool near_edge(std::size_t index) const { return near_[index - origin_] != 0; }
-  /// The sum over the cells.
+  /// Returns the weighted sum over the cells within reach of the blur; calls use(cells, weights) for each lit pixel.
   template <class Use>
   Blend blend(const Pixel& pixel, const Use& use) const;
 
  private:
   struct Place {
     std::size_t index;  ///< pixel
-    int cell;
+    int cell;           ///< index of the cell in its pixel
   };
   struct Seen {
     double depth;
     Lit lit;
     std::int32_t line;
-    double diffuse;  ///< share of ambient light sent back
+    double diffuse;  ///< share of ambient light that is reflected
   };
 
   std::vector<char> uniform(int first, int last) const;
@@ -65,7 +65,7 @@ class StructuredLight::Strip {
   double hidden_step(const Pixel& pixel) const;
   void first_hits(const std::vector<Place>& places, const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
   std::vector<Seen> cast(const std::vector<Place>& places) const;
-  /// The position of the corner cells of a pixel relative to its face.
+  /// even: corners on the pixel's face; beside: edge next to it; bent: gentle bend; mixed: removed; crossed: edge.
   enum class Kind { even, beside, bent, mixed, crossed };
   struct Uneven {
     std::size_t index;  ///< pixel
@@ -88,28 +88,28 @@ class StructuredLight::Strip {
   const StructuredLight& model_;
   int width_, height_, reach_;
   int first_, last_;    ///< rows whose pixels are read
-  int top_, bottom_;    ///< rows whose cells they need
+  int top_, bottom_;    ///< rows whose cells the pixels of these rows need
   std::size_t origin_;  ///< index of the first pixel of row top_
   std::vector<char> near_;
   std::vector<std::int32_t> cells_of_;  ///< index into cells_ by pixel; -1: none
   std::vector<Cells> cells_;
   std::vector<Phasors> second_;  ///< phasors of the second fringe, by cells; empty: there is none
-  Values across_, down_;         ///< places of cells in their pixel
+  Values across_, down_;         ///< positions of the cells in their pixel, -0.5 to 0.5
   std::vector<Values> weights_;  ///< weights of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
-  std::vector<float> shares_;    ///< sums of weights_
+  std::vector<float> shares_;    ///< for each element of weights_: the sum of its 16 weights
 };
 
 /// The light of a pixel near an edge.
 struct StructuredLight::Blend {
-  static constexpr double tolerated = 0.03;  ///< largest off_share of a pixel that is not mixed
-  double white = 0.0;                        ///< mean over its footprint
-  double cosine = 0.0, sine = 0.0;
+  static constexpr double tolerated = 0.03;       ///< largest off_share of a pixel that is not mixed
+  double white = 0.0;                             ///< mean of the projector's white light over the pixel's footprint
+  double cosine = 0.0, sine = 0.0;                ///< phasor of the fringe
   double second_cosine = 0.0, second_sine = 0.0;  ///< phasor of the second fringe, if there is one
-  double column = 0.0;                            ///< column of the brightest cell
-  double diffuse = 0.0;                           ///< share of ambient light sent back
-  double off_share = 0.0;  ///< share of the footprint that is on other faces, farther away than edge_step; not summed
-                           ///< further once it is above `tolerated`
-  bool outside = false;    ///< a part lies outside the projector's field
+  double column = 0.0;                            ///< projector column of the brightest cell
+  double diffuse = 0.0;                           ///< share of ambient light that is reflected
+  double off_share = 0.0;  ///< share of the footprint on other faces, farther than edge_step from this one; the
+                           ///< sum ends as soon as it exceeds `tolerated`
+  bool outside = false;    ///< whether some of the footprint is outside the projector's field
 };
 
 template <class Use>
@@ -124,7 +124,7 @@ StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const U
       const Values& weight = weights_[place];
       const float share = shares_[place];
       total += share;
-      if (at < 0) {  // nothing is there
+      if (at < 0) {  // the pixel sees nothing
         out.off_share += share;
         continue;
       }
@@ -154,7 +154,7 @@ StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const U
   return out;
 }
 
-/// Work on all rows, in strips: work(strip, first row, last row + 1).
+/// Processes all rows in parallel, in strips: calls work(strip, first row, last row + 1) for each of them.
 template <class Work>
 void StructuredLight::in_strips(const Work& work) const {
   constexpr int rows = 32;

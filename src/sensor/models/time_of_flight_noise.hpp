@@ -15,23 +15,23 @@
 namespace bin_scenes {
 
 namespace detail {
-/// The factor t / (pi/2 - t) of the paper's formula. It has a pole at 90 degrees, where no camera measures. Beyond 80
-/// degrees, the value stays that of 80 degrees.
+/// The factor t / (pi/2 - t) of the paper's formula. It has a pole at an angle of incidence of 90 degrees, where no
+/// camera measures. Beyond 80 degrees, the value for 80 degrees is used.
 inline double tilt(double incidence) {
   const double t = std::min(incidence, M_PI * 80.0 / 180.0);
   return t / (0.5 * M_PI - t);
 }
 }  // namespace detail
 
-/// Standard deviation of depth (m) at z (m) under an incidence (rad); `signal` as seen by a facing surface of that
-/// albedo.
+/// Returns the standard deviation of depth (m) at the depth z (m) and the angle of incidence (rad). `signal` is the
+/// albedo of a surface facing the camera that would give the same signal.
 inline double axial_sigma(const TimeOfFlightSettings& s, double z, double incidence, double signal) {
   const double far = z - s.axial_distance, tilt = detail::tilt(incidence);
   const double sigma = s.axial + s.axial_growth * far * far + s.axial_angle * z * std::sqrt(z) * tilt * tilt;
   return s.albedo > 0.0 ? sigma * std::sqrt(s.albedo / std::max(signal, 1e-6)) : sigma;
 }
 
-/// Standard deviation of a ray's jitter, pixels.
+/// Returns the standard deviation of the random sideways displacement of a pixel's ray (pixels).
 inline double lateral_sigma(const TimeOfFlightSettings& s, double incidence) {
   return s.lateral + s.lateral_angle * detail::tilt(incidence);
 }

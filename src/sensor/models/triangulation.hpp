@@ -9,20 +9,20 @@ namespace bin_scenes {
 
 class Triangulation {
  public:
-  /// @param projector_in_camera  the projector's optical frame in the camera's
+  /// @param projector_in_camera  pose of the projector's optical frame in the camera's optical frame
   Triangulation(const Lens& projector, const Pose& projector_in_camera);
 
-  /// Depth z (m) on the camera's ray (z = 1) of what lies in a column; NaN where ray and column do not meet in front of
-  /// both.
+  /// Returns the depth z (m) at which a ray of the camera (z = 1) meets the surface that a projector column lights; NaN
+  /// if they do not meet in front of camera and projector.
   double depth(const Vec3& ray, double column) const;
-  /// |d depth / d column| (m) at a depth.
+  /// Returns by how much the depth on a ray changes per projector column, |d depth / d column| (m), at a depth (m).
   double depth_per_column(const Vec3& ray, double depth) const;
-  /// Columns passed on a face with that normal from the point at a depth to the next pixel of the camera, across and
-  /// down; distortion left out.
+  /// Returns by how many projector columns the next camera pixel to the right, and the next one below, differ from this
+  /// pixel, on a face with that normal through the point at `depth` (m). Lens distortion is neglected.
   Eigen::Vector2d slope(const Vec3& ray, double depth, const Vec3& normal, const Lens& camera) const;
 
  private:
-  /// Column = share / depth in the projector's frame, of a point depth * ray: what both are for a depth of 1.
+  /// A projected column is a quotient share / depth. These are the changes of both per 1 m of camera depth on a ray.
   struct Along {
     double share, depth;
   };
@@ -30,10 +30,10 @@ class Triangulation {
 
   Lens projector_;
   bool distorted_;
-  Mat3 turn_;                         ///< camera to projector
-  Vec3 origin_;                       ///< the camera in the projector's frame
-  Vec3 share_, ahead_;                ///< coefficients of a direction in the camera's frame
-  double share_there_, ahead_there_;  ///< values at the camera itself
+  Mat3 turn_;           ///< rotation from the camera frame to the projector frame
+  Vec3 origin_;         ///< position of the camera in the projector's frame (m)
+  Vec3 share_, ahead_;  ///< their dot products with a ray (camera frame) are Along::share and Along::depth
+  double share_there_, ahead_there_;  ///< share and depth of the camera's own position
 };
 
 }  // namespace bin_scenes

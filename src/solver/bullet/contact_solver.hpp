@@ -1,20 +1,20 @@
-/// Contacts of one island, solved in sub-steps: Bullet finds them (one collision detection a step) and lays out their
-/// rows; this class replaces its sweeps and the integration of what touches.
+/// Contacts of one island, solved in sub-steps: Bullet finds them (one collision detection per step) and sets up their
+/// rows; this class replaces Bullet's sweeps, and its integration of bodies in contact.
 ///
 ///   for each sub-step h:  gravity -> warm start -> sweeps with soft push-out -> move -> sweeps without (relaxation)
 ///   at the end of the step: rebound
 ///
-/// Separations follow the bodies between detections through the rows' own Jacobians. Small steps beat many sweeps of
-/// one large step: load runs through a stack of ten in a few steps (Macklin et al. 2019, "Small steps in physics
-/// simulation"); soft push-out with relaxation lets overlap out without leaving speed behind (Catto 2024, "Solver2D").
-/// Bullet's own sweeps, tried first with 20 to 200 iterations at 240 to 1000 Hz, let a stack of ten boxes sway and
-/// fall.
+/// Between detections, separations are updated with the Jacobians of the rows. Many small steps converge better than
+/// many sweeps of one large step: loads propagate through a stack of ten in a few steps (Macklin et al. 2019, "Small
+/// steps in physics simulation"). Soft push-out with relaxation removes overlap without adding speed (Catto 2024,
+/// "Solver2D"). With Bullet's own sweeps, of which 20 to 200 iterations at 240 to 1000 Hz were tried, a stack of ten
+/// boxes sways and falls.
 ///
-/// Contacts that press within a small patch of each other resist turns as a patch does, as in the sphere solver
+/// Contacts that press within a small patch of each other resist rotation together, as in the sphere solver
 /// (src/solver/sphere/passes/solve.cpp, resist_turn).
 ///
-/// Friction is a cone: both tangential impulses of a contact are limited together. A rebound starts at e times the
-/// speed of approach just before the contact first pushed.
+/// Friction is a cone: both tangential impulses of a contact are limited together. The initial speed of a rebound is
+/// the restitution times the approach speed just before the contact first pushed.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -25,34 +25,34 @@
 
 namespace bin_scenes::bullet {
 
-/// The effect of a step on a body in contact. The world attaches it to btRigidBody's user pointer.
+/// Data of a body from the start to the end of a step (dynamics_world.hpp); btRigidBody's user pointer points to it.
 struct Motion;
 
 ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintSolver {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
-  /// Number of sweeps of a sub-step before bodies move, and again after. With one sweep, three cubes on each other
-  /// tremble, and so do ten rings.
+  /// Number of sweeps of a sub-step before bodies move, and again after. With one sweep, stacks of three cubes and of
+  /// ten rings tremble.
   static constexpr int sweeps = 2;
 
-  /// Flags and numbers of btContactSolverInfo this solver is written for; m_numIterations is the number of sub-steps.
+  /// Sets flags and numbers of btContactSolverInfo for this solver; m_numIterations is the number of sub-steps.
   static void configure(btContactSolverInfo & info);
 
-  /// Radius (units) of contact at a point or along a line: such a contact is a patch that resists spin and rolling.
+  /// Radius (units) of the patch of a contact at a point or along a line; the patch resists spin and rolling.
   btScalar patch_radius = 0;
 
   std::uint64_t rows = 0;  ///< contacts solved since construction, a counter for the profile
 
-  /// Deepest contact of all steps, by the diagonals (units) of bodies, which are numbered by getUserIndex2().
+  /// Contact of all steps with the largest depth / smaller diagonal (units). Bodies are numbered by getUserIndex2().
   struct Deepest {
     int a = -1, b = -1;
-    btScalar depth = 0, relative = 0;  ///< units; / smaller diagonal
-    double time = 0;                   ///< s, by `clock`
+    btScalar depth = 0, relative = 0;  ///< units; depth / smaller diagonal
+    double time = 0;                   ///< s, value of `clock` in that step
     std::uint64_t unresolved_impacts = 0;
   };
   std::vector<btScalar> diagonals;
-  double clock = 0;  ///< s simulated, kept by the world
+  double clock = 0;  ///< s of simulated time, advanced by the world
   Deepest deepest;
 
  protected:
@@ -63,24 +63,24 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
  private:
   struct Contact {
-    btVector3 place;    ///< position of the contact, from the centre of mass of its first body
-    btScalar distance;  ///< distance at the time of detection
-    btScalar approach;  ///< normal velocity before its first push, negative
+    btVector3 place;    ///< position of the contact, from the centre of mass of its first body (units)
+    btScalar distance;  ///< distance at the time of detection (units)
+    btScalar approach;  ///< normal velocity before the first push (units/s), negative
     bool pushed;
-    btScalar lasting;  ///< normal impulse that the sub-step began with
+    btScalar lasting;  ///< normal impulse at the start of the sub-step
   };
-  /// Displacement and turn of a solver body from where it was at detection.
+  /// Displacement and rotation of a solver body since the contacts were detected.
   struct Displacement {
     btVector3 moved{0, 0, 0}, turned{0, 0, 0};
     bool touches = false;
   };
 
-  /// Push-out of a sub-step: share of the overlap turned into speed (1/s), and of mass and impulse that act.
+  /// Push-out in a sub-step: ratio of speed to overlap (1/s), and the shares of mass and impulse that act.
   struct Soft {
     btScalar rate, mass_share, impulse_share;
   };
 
-  /// Pushing lets overlap out; relaxing takes back the velocity that this left.
+  /// Pushing removes overlap; relaxing removes the velocity that this has added.
   enum class Sweep { first_push, push, relax };
 
   void note_depth(const btPersistentManifold& manifold);
@@ -97,11 +97,11 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   void rebound(const btContactSolverInfo& info);
   void hand_over();
 
-  std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
-  std::vector<int> blocks_;        ///< first contact of each run between the same two bodies, and their count
+  std::vector<Contact> contacts_;  ///< indexed like m_tmpSolverContactConstraintPool
+  std::vector<int> blocks_;        ///< by pair of bodies: its first contact; at the end, the number of contacts
   std::vector<char> unconverged_, were_unconverged_;  ///< by body: whether one of its contacts has not converged, in
                                                       ///< this sweep and in the previous one
-  std::vector<Displacement> displacements_;           ///< parallel to m_tmpSolverBodyPool
+  std::vector<Displacement> displacements_;           ///< indexed like m_tmpSolverBodyPool
 };
 
 }  // namespace bin_scenes::bullet

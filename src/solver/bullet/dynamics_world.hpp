@@ -16,10 +16,10 @@ struct Motion {
   Vec3 inertia = Vec3::Ones();                     ///< principal moments (Bullet's body frame is the principal frame)
   btVector3 linear{0, 0, 0};                       ///< velocity at the start of the step
   btQuaternion turn{0, 0, 0, 1};                   ///< rotation of torque-free motion over the step
-  bool touches = false;                            ///< the contact solver moved it in this step:
-  btVector3 moved{0, 0, 0}, turned{0, 0, 0};       ///< displacement and rotation
+  bool touches = false;                            ///< whether the contact solver moved it in this step
+  btVector3 moved{0, 0, 0}, turned{0, 0, 0};       ///< displacement and rotation by the contact solver
   btTransform start = btTransform::getIdentity();  ///< pose at the start of the step
-  btVector3 ahead_moved{0, 0, 0}, ahead_turned{0, 0, 0};  ///< displacement and turn to where its contacts are found
+  btVector3 ahead_moved{0, 0, 0}, ahead_turned{0, 0, 0};  ///< displacement and rotation to the pose of detection
 };
 
 /// Returns null for walls and fixed bodies: Bullet has one solver body for all of them.
@@ -28,16 +28,16 @@ Motion* motion_of(const btSolverBody& body);
 /// Whether the body is a ball. The lever arms of a ball do not rotate with it, and it rolls freely.
 bool is_ball(const btCollisionObject& body);
 
-/// Angle (rad) a body may turn in one torque-free step: Newton converges, and the path of its axis is followed.
+/// Rotation (rad) of a torque-free step: with this limit, Newton's iteration converges and the axis' path is resolved.
 constexpr double turn_per_step = 0.1;
 
-/// One step of Euler's equations without torque, I dw/dt = (I w) x w in the body frame, by the implicit midpoint rule,
-/// which keeps both quadratic invariants (energy and |L|^2) exactly; returns the angular velocity at the end.
+/// Integrates Euler's equations without torque, I dw/dt = (I w) x w in the body frame, over `dt` by the implicit
+/// midpoint rule, which conserves energy and |L|^2 exactly. Returns the angular velocity at the end.
 Vec3 torque_free_step(const Vec3& inertia, const Vec3& angular, double dt);
 
-/// Contacts are found where bodies will be at the mean of the sub-steps' beginnings, and have their levers and normals
-/// there, as in the symplectic Euler method over the sub-steps, which keeps energy: with those of the start of the step
-/// what rocks on an edge gains.
+/// Finds contacts at the poses that bodies will have at the mean of the times at which the sub-steps begin, and uses
+/// the lever arms and normals of these poses. This is the symplectic Euler method over the sub-steps, which conserves
+/// energy; with the poses at the start of the step, a body that rocks on an edge gains energy.
 ATTRIBUTE_ALIGNED16(class) DynamicsWorld : public btDiscreteDynamicsWorld {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();

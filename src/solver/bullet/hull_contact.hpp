@@ -23,13 +23,13 @@ class HullContact : public btActivatingCollisionAlgorithm {
                         const btDispatcherInfo& info, btManifoldResult* result) override;
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
                                  btManifoldResult*) override {
-    return 1;  // nothing here is swept: steps are cut short instead
+    return 1;  // no continuous collision detection: steps are divided instead
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     if (manifold_ && own_manifold_) manifolds.push_back(manifold_);
   }
 
-  /// Makes Bullet use it for every pair of a hull with a hull, a sphere or a triangle.
+  /// Makes Bullet use this class for every pair of a hull with a hull, a sphere or a triangle.
   struct Factory : public btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,

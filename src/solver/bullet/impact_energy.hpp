@@ -14,17 +14,17 @@ namespace bin_scenes::bullet {
 
 class ImpactEnergy {
  public:
-  /// Before the rebound: bodies of the pool that it joins, pair by pair; those that nothing moves join nothing.
+  /// Call before the rebound. `pairs`: bodies of the pool that rebound together; immovable bodies join no group.
   ImpactEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs);
 
-  /// After it: groups of bodies that gained over the start of the step keep as much of the rebound as energy allows. A
-  /// body alone rebounds with the restitution of its contacts.
+  /// Call after the rebound. Groups of bodies that gained energy since the start of the step keep as large a share of
+  /// the rebound as energy conservation allows. A single body rebounds with the restitution of its contacts.
   void limit();
 
  private:
   struct Hit {
     int body, group;            ///< index in the pool; index of the first body of its group
-    btVector3 linear, angular;  ///< before the rebound, units/s and rad/s
+    btVector3 linear, angular;  ///< velocities before the rebound, units/s and rad/s
   };
   int place_of(int body);
   int root(int place);

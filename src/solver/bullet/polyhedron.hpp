@@ -8,10 +8,10 @@
 
 namespace bin_scenes::bullet {
 
-/// @param hull convex, closed; its triangles wind outwards
-/// Triangles in one plane, up to `flat` in the hull's unit, are one face. Bullet's own initializePolyhedralFeatures
-/// splits some planes into several faces, and clipping those misses corners: a bolt that rolls on the rim of its head
-/// then gets contacts at corners that already overlap, and gains energy (docs/lab/findings/bullet.md).
+/// Returns the faces of a hull. Triangles in one plane, up to `flat` (unit of the hull), are one face. Bullet's own
+/// initializePolyhedralFeatures splits some planes; clipping then misses corners, so that a bolt that rolls on the rim
+/// of its head gets contacts at corners that already overlap, and gains energy (docs/lab/findings/bullet.md).
+/// @param hull  convex, closed; its triangles wind outwards
 btConvexPolyhedron polyhedron_of(const Mesh& hull, double flat);
 
 }  // namespace bin_scenes::bullet

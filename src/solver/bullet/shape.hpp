@@ -20,13 +20,13 @@ struct PartShape {
   Pose principal;                  ///< principal frame in the model frame, metres
   Vec3 inertia = Vec3::Ones();     ///< principal moments / mass, square units of the scaled world
   double radius = 0.0;             ///< bounding sphere about the centre of mass, units of the scaled world
-  double thickness = 1.0;          ///< 2 volume / area: of a plate, and less than the width of anything thicker
-  bool hulls_met = true;           ///< the decomposition reached BulletSettings::hull_error and hull_volume_error
-  double hull_error = 0.0;         ///< / diagonal
-  double hull_volume_error = 0.0;  ///< of the union of hulls / volume
+  double thickness = 1.0;          ///< 2 volume / area (units): thickness of a plate; less than the width of others
+  bool hulls_met = true;           ///< whether the hulls meet BulletSettings::hull_error and hull_volume_error
+  double hull_error = 0.0;         ///< Hausdorff distance of hulls and mesh / diagonal
+  double hull_volume_error = 0.0;  ///< excess volume of the union of the hulls / volume of the mesh
 };
 
-/// `scale`: units of the scaled world per metre.
+/// Makes Bullet's shape of a part. `scale`: units of the scaled world per metre.
 PartShape part_shape(const PartModel& part, const BulletSettings& settings, double scale);
 
 /// A triangle mesh that never moves (a bin given as a mesh), in the frame of its file.

@@ -21,7 +21,7 @@
 namespace bin_scenes::bullet {
 
 using PartShapePtr = std::shared_ptr<const PartShape>;
-/// Shape of a part at a scale; the solver keeps them, so that a batch of worlds shares what it can.
+/// Returns the shape of a part at a scale. The solver keeps the shapes, so that the worlds of a batch share them.
 using ShapeSource = std::function<PartShapePtr(const PartModelPtr&, double scale)>;
 
 class World {
@@ -35,14 +35,14 @@ class World {
   void remove(std::size_t body);
   void set_frame(const Frame& frame);
   void begin(const Phase& phase);
-  /// Each step is cut so that the fastest part moves a small share of its size at once.
+  /// Simulates these steps. Each is divided so that the fastest part moves by a small share of its size at a time.
   void advance(const Steps& steps);
 
   std::vector<BodyState> states() const;
   std::vector<bool> asleep() const;
   std::vector<ContactForce> contact_forces() const;
   WorstContact take_worst_contact();
-  /// Sums over steps, for the profile.
+  /// Counts, summed over all steps, for the profile.
   struct Counters {
     std::uint64_t steps = 0, free_falls = 0, asleep = 0, pairs = 0, contacts = 0;
   };
@@ -56,8 +56,8 @@ class World {
     Motion motion;
     std::unique_ptr<btRigidBody> rigid;  ///< null while the body is absent
     BodyState last;                      ///< last state of an absent body
-    bool frozen = false;                 ///< asleep as Bullet cannot have it: alone, in the midst of what moves
-    btTransform woke_at;                 ///< or went on from since
+    bool frozen = false;                 ///< asleep alone among moving bodies, which Bullet does not support
+    btTransform woke_at;                 ///< pose when it woke, or when it last moved on noticeably
   };
 
   void add_static(btCollisionShape* shape, const btTransform& pose);
@@ -78,9 +78,9 @@ class World {
   BulletSettings settings_;
   Frame frame_;
   double scale_ = 1.0;     ///< units per metre
-  int shortening_ = 1;     ///< steps of time_step_ for one of the settings: small parts need short ones
+  int shortening_ = 1;     ///< number of steps of time_step_ per step of the settings; small parts need short ones
   double time_step_;       ///< s
-  double sub_step_ = 0.0;  ///< s: of the last step
+  double sub_step_ = 0.0;  ///< s: sub-step of the last step
   btDefaultCollisionConfiguration configuration_;
   HullContact::Factory hull_contact_;
   btCollisionDispatcher dispatcher_;

@@ -8,10 +8,10 @@
 
 namespace bin_scenes::sphere {
 
-/// Effort of the heap that this world will become, when all parts that find room are in.
+/// Returns the effort of the full heap, in which all parts of `def` that find room are in the bin.
 int effort_to_come(const World& world, const WorldDef& def);
 
-/// Returns the mass of the heaviest moving part / that of the lightest.
+/// Returns the mass of the heaviest moving part divided by the mass of the lightest one.
 float mass_ratio_of(const World& world);
 
 /// Returns the factor of the number of sweeps that parts of unequal masses need: a sweep propagates only as much of an

@@ -9,18 +9,18 @@
 
 namespace bin_scenes::sphere {
 
-/// The solver with a mechanism taken away or changed, which no request can ask for: what benchmarks compare with.
+/// A solver in which a mechanism is switched off or changed, for comparisons in benchmarks; requests cannot set it.
 struct Variant {
-  Settings settings;                   ///< except those that the request sets
-  std::function<void(Shape&)> change;  ///< is done to each part's shape
+  Settings settings;                   ///< initial settings; the values that a request sets replace some of them
+  std::function<void(Shape&)> change;  ///< is applied to the shape of each part after it is made
 };
 
-/// All bodies absent. A bin given as a mesh is one more, fixed body behind those of the definition.
-/// `shape_of`: the collision shape of a part; it must outlive the world.
+/// Makes a world in which all bodies of `def` are absent. If the bin is a mesh, it is one more, fixed body after these.
+/// `shape_of` returns the collision shape of a part; the shape must outlive the world.
 World make_world(const WorldDef& def, const SphereSettings& settings,
                  const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base = {});
 
-/// What the user should know of a world: a time step that is too long for its parts is cut; the flags of its shapes.
+/// Returns the flags for the report: whether time steps are divided because parts are small, and flags of the shapes.
 std::vector<Flag> flags_of(const World& world);
 
 /// Sets pose and velocity of a body to those of the state, and wakes the body.
@@ -29,20 +29,20 @@ void place(World& world, std::size_t body, const BodyState& state);
 void set_jaws(World& world, const Jaws& jaws);
 void set_force(World& world, std::size_t body, const Vec3& force, const Vec3& point);
 
-/// Takes over the samples, contact settings and sleep of a phase. Returns true if these differ from before, or if the
-/// contacts are to forget their forces, or bodies are to sleep: the caller must then change bodies and contacts.
+/// Copies the settings of a phase into the world. Returns true if they differ from before, or if contacts must forget
+/// their forces or bodies must fall asleep: the caller must then change the bodies and contacts accordingly.
 bool take_phase(World& world, const Phase& phase);
 
-/// The same; a change wakes all bodies, or puts them to sleep.
+/// Does the same as take_phase(), and changes bodies and contacts: after a change all bodies wake, or are put to sleep.
 void set_phase(World& world, const Phase& phase);
 
-/// Pose of the model frame and velocity; NaN position for a body that was never placed.
+/// Returns the pose of the model frame and the velocity of a body; a body that was never placed has a NaN position.
 BodyState state_of(const World& world, std::size_t body);
 
-/// Of the last step. `bodies`: of the caller; what stands behind them is the bin.
+/// Returns the contact forces of the last step. `bodies`: number of bodies of the caller; a later body is the bin.
 std::vector<ContactForce> forces_of(const World& world, std::size_t bodies);
 
-/// Of all steps since it was last taken. `bodies`: as above.
+/// Returns the deepest contact of all steps since the last call, and resets it. `bodies`: as for forces_of().
 WorstContact take_worst_contact(World& world, std::size_t bodies);
 
 }  // namespace bin_scenes::sphere

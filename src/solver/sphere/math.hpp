@@ -10,7 +10,7 @@ using Vec3f = Eigen::Vector3f;
 using Mat3f = Eigen::Matrix3f;
 using Quatf = Eigen::Quaternionf;
 
-/// q advanced by the angular velocity w (rad/s, parent frame) over h seconds: exact exponential map.
+/// Returns q after h seconds of rotation at the angular velocity w (rad/s, parent frame), by the exact exponential map.
 inline Quatf integrated(const Quatf& q, const Vec3f& w, float h) {
   const float angle = w.norm() * h;
   if (angle < 1e-12f) return q;
@@ -18,8 +18,8 @@ inline Quatf integrated(const Quatf& q, const Vec3f& w, float h) {
   return (Quatf(std::cos(0.5f * angle), s * w.x(), s * w.y(), s * w.z()) * q).normalized();
 }
 
-/// sum += change, and what single precision is too coarse for stays in `rest` for the next time: a part at 1,000 m/s, a
-/// kilometre away, moves by 40 mm in a step that is cut, and is rounded to 0.06 mm.
+/// Adds `change` to `sum`, and keeps in `rest` what single precision cannot represent until the next call: a part at
+/// 1,000 m/s, a kilometre away, moves by 40 mm in a divided step, and would be rounded to 0.06 mm.
 inline void add_exactly(const Vec3f& change, Vec3f& sum, Vec3f& rest) {
   const Vec3 exact = sum.cast<double>() + (rest.cast<double>() + change.cast<double>());
   sum = exact.cast<float>();

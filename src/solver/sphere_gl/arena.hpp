@@ -1,4 +1,4 @@
-/// Allocates regions in a growing buffer by first fit. The place of a region never influences a result.
+/// Allocates regions in a growing buffer by first fit. The position of a region never influences a result.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace bin_scenes::sphere_gl {
 
 class Arena {
  public:
-  /// First element of a region of `count`. An empty one takes an element, too: what is given back is its own.
+  /// Reserves a region of `count` elements, at least one, and returns the index of its first element.
   std::size_t take(std::size_t count) {
     count = std::max<std::size_t>(count, 1);
     std::size_t at = 0;
@@ -22,7 +22,7 @@ class Arena {
     size_ = std::max(size_, at + count);
     return at;
   }
-  /// Enlarges a region in place; returns false if the next region leaves too little room.
+  /// Enlarges the region that begins at `first` to `count` elements; returns false if the next region is in the way.
   bool extend(std::size_t first, std::size_t count) {
     const auto region = taken_.find(first);
     if (region == taken_.end()) return false;
@@ -33,10 +33,10 @@ class Arena {
     return true;
   }
   void give(std::size_t first) { taken_.erase(first); }
-  std::size_t size() const { return size_; }  ///< elements ever in use
+  std::size_t size() const { return size_; }  ///< largest number of elements that the buffer has needed so far
 
  private:
-  std::map<std::size_t, std::size_t> taken_;  // first, count
+  std::map<std::size_t, std::size_t> taken_;  // regions: index of the first element, number of elements
   std::size_t size_ = 0;
 };
 

@@ -1,19 +1,19 @@
-/// The worlds that live on the GPU, and the passes of one step over any choice of them. A pass has one name everywhere:
-/// its method here, its timer, its twin on the CPU (solver/sphere/world.hpp), and shaders/sphere/<name>.comp, but that
-/// find_contacts is four shaders, and solve two.
+/// The worlds that are stored on the GPU, and the passes of one step over a selection of them. A pass has the same name
+/// everywhere: its method here, its timer, its CPU form (solver/sphere/world.hpp), and shaders/sphere/<name>.comp. Two
+/// passes consist of several shaders: find_contacts of five, and solve of two.
 ///
 // clang-format off
 ///     shapes     | part 0: nodes, edges, clusters, field | part 1 | ...  shared by all worlds, never change
-///     bodies     | world 0 ............... | world 1 ...... | ...        states, tensors, boxes, ranges alike
-///     near       | world 0: bits, list     | world 1 ...... | ...        of bodies that may come near each other
-///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   take turns, sorted by (a, b)
-///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it lasts
-///     contacts   | world 0: capacity slots | world 1 | ...              eight to a slot
-///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step;
-///                                                                        impulses alike
-///     jobs       | pairs whose contacts are to be found, of all worlds |
+///     bodies     | world 0 ............... | world 1 ...... | ...        same layout: states, tensors, boxes, ranges
+///     near       | world 0: bits, list     | world 1 ...... | ...        of pairs of bodies that may come near
+///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   pages alternate, sorted by (a, b)
+///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it exists
+///     contacts   | world 0: capacity slots | world 1 | ...              eight for each slot
+///     rows       | world 0: capacity rows | world 1 | ...               data of the contacts that this step solves;
+///                                                                        impulses have the same layout
+///     jobs       | pairs of all worlds whose contacts are found anew |
 ///     samples    | samples near the other part of a pair, unordered |  touches and candidates have lists of the same
-///                                                                      kind; a job's candidates are linked
+///                                                                      kind; the candidates of a job are linked
 ///
 /// A step is eleven dispatches, however many worlds run:
 ///
@@ -23,12 +23,12 @@
 ///     group/world        thread/manifold  group/world, all three
 // clang-format on
 ///
-/// begin_watch comes before the steps of a stretch, watch_rest and audit_energy behind them, a group a world: the host
-/// then reads 32 bytes of a world, and its states only when it asks for them.
+/// begin_watch runs before a series of steps, and watch_rest and audit_energy run after it, with one group for each
+/// world. The host then reads 32 bytes for each world; it reads the states of bodies only when it needs them.
 ///
-/// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
-/// run without leaving the group. A world that has done its steps, or for whose pairs there is no room, is left as it
-/// is until the host has observed it.
+/// Between two passes there is only a barrier; the host does nothing. In `solve`, one group processes all sub-steps and
+/// colors of a step. A world that has finished its steps, or that has too little room in a list, does not change until
+/// the host has read its progress.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"
@@ -48,71 +48,71 @@ namespace bin_scenes::sphere_gl {
 
 class Batch {
  public:
-  using Slot = std::size_t;  ///< of a world
-  /// Data of the watch that are uploaded with the state of a body.
+  using Slot = std::size_t;  ///< index of a world on the device
+  /// Data of WorldWatch that are uploaded with the state of a body.
   struct Mark {
-    bool enters = false;  ///< its energy begins with this state
-    gpu::uint moved = 0;  ///< what WatchedBody::moved becomes
+    bool enters = false;  ///< the body was inserted: the audit of its energy begins with this state
+    gpu::uint moved = 0;  ///< new value of WatchedBody::moved
   };
 
   explicit Batch(const Capacity& capacity = {});
 
   /// Makes room for a world and uploads it: bodies, states, pairs and contacts. Settings are the same for all worlds.
-  /// @param progress filled with where the world stands.
+  /// @param progress  is set to the initial progress of the world.
   Slot add(const sphere::World& world, gpu::SphereProgress& progress);
   void remove(Slot slot);
 
-  /// Those of some bodies, with marks by body; neighbours are one copy.
+  /// Uploads the states of the given bodies of a world; marks[i] belongs to body i. Adjacent bodies need one copy.
   void upload_states(Slot slot, const sphere::World& world, const std::set<std::size_t>& bodies,
                      const std::vector<Mark>& marks);
   void upload_states(Slot slot, const sphere::World& world);
-  /// What the steps of worlds left behind; upload takes effect at the next pass. Neighbours are one copy.
+  /// Uploads the progress of worlds; it takes effect at the next pass. Worlds in adjacent slots need one copy.
   void upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> worlds);
-  /// What worlds are to do and to be observed for; likewise.
+  /// Uploads the number of steps and the requested observations of worlds, in the same way.
   void upload_asks(std::vector<std::pair<Slot, gpu::SphereAsk>> worlds);
-  /// A world's worst contact is looked for from the next step on, and no earlier one counts.
+  /// Resets the worst contact of a world: only contacts of the next steps count.
   void forget_worst(Slot slot);
-  /// Asks for what is seen of these worlds after the passes issued so far, and for all of some others or the same ones.
-  /// Wait for `back` later: it holds SphereSeen of each of `seen`; then of each of `read` the progress, then the worst
-  /// contact of each, then the audit of each, then the states of each.
+  /// Requests the results of the passes that were started before: the counts of the worlds `seen`, and all data of the
+  /// worlds `read`. `back` can be waited for later. It contains SphereSeen of each world of `seen`; then for the worlds
+  /// of `read` the progress of each, then the worst contact of each, the audit of each, and the states of each.
   void request(const std::vector<Slot>& seen, const std::vector<Slot>& read, gl::ReadBack& back) const;
-  /// The same for progress alone.
+  /// Requests the progress of worlds only.
   void request_progress(const std::vector<Slot>& slots, gl::ReadBack& back) const;
 
-  /// Room for more pairs of a world that had too little, and for their contacts, from its progress; contents are kept.
+  /// Enlarges the lists of pairs and contacts of a world to the need that its progress states; their contents are kept.
   void grow_pairs(Slot slot, gpu::SphereProgress& progress);
   /// Makes room for `need` rows of the solve. Their contents are lost, because rows are valid within one step only.
   void grow_rows(Slot slot, std::size_t need);
-  /// Room for so many samples near another body, and candidates, or for as many as there may be at once: of more than
-  /// that, repeated steps find the contacts.
+  /// Enlarges the lists of samples and of candidates to these numbers of elements, but not beyond the memory limit; a
+  /// step that needs more is repeated until all contacts are found.
   void grow_candidates(std::size_t samples, std::size_t candidates);
 
-  /// Everything of one world, after waiting for the passes so far.
+  /// Reads the states and manifolds of one world from the device, after the passes that were started before.
   void download(Slot slot, sphere::World& world) const;
-  /// For tests: the progress of a world, its worst contact, and its manifolds as they are on the device.
+  /// For tests: return the progress of a world, its worst contact, and its manifolds as they are on the device.
   gpu::SphereProgress progress(Slot slot) const { return progress_.download(slot, 1)[0]; }
   gpu::SphereWorst worst(Slot slot) const { return worst_.download(slot, 1)[0]; }
   ManifoldImage manifolds(Slot slot) const;
 
-  /// Worlds that the passes work on from now on, and the share of a whole step that their steps are.
+  /// Selects the worlds that the next passes process, and the length of their steps as a share of the full time step.
   void run(const std::vector<Slot>& slots, float share = 1.0f);
   void step();
 
-  // The passes in their order.
+  // The passes of step() in their order.
   void find_pairs();
   void find_contacts();
   void color_manifolds();
   void solve();
   void note_depths();
   void update_sleep();
-  // Before and after the steps of a stretch.
+  // The passes before and after a series of steps.
   void begin_watch();
   void watch_rest();
   void audit_energy();
 
   gl::Timer& timer() { return timer_; }
-  std::size_t bytes() const;         ///< of all buffers on the device
-  std::size_t bytes_shared() const;  ///< of these, what does not grow with bodies: shapes, and what groups work with
+  std::size_t bytes() const;         ///< size of all buffers on the device (bytes)
+  std::size_t bytes_shared() const;  ///< the part of bytes() that does not grow with worlds: shapes and settings
 
  private:
   struct Region {
@@ -123,9 +123,9 @@ class Batch {
   std::size_t most_candidates() const;
   void upload_world(Slot slot);
   void bind() const;
-  /// Places in all lists.
+  /// Reserves the regions of a world in all lists.
   void take_region(Slot slot, const sphere::World& world);
-  /// Pairs with their manifolds and contacts; returns where a world stands that has them.
+  /// Uploads the pairs of a world with their manifolds and contacts. Returns a progress with their counts.
   gpu::SphereProgress upload_pairs(Slot slot, const sphere::World& world);
 
   std::vector<Region> regions_;
@@ -134,9 +134,9 @@ class Batch {
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
   std::size_t running_count_ = 0, contact_groups_ = 1;
-  std::size_t most_pairs_ = 0;                            ///< room for them in one of the running worlds
-  std::size_t pair_group_;                                ///< invocations of a group that takes a pair
-  std::size_t least_samples_ = 0, least_candidates_ = 0;  ///< room for them
+  std::size_t most_pairs_ = 0;                            ///< largest capacity of pairs of a selected world
+  std::size_t pair_group_;                                ///< number of invocations of a group that processes pairs
+  std::size_t least_samples_ = 0, least_candidates_ = 0;  ///< smallest lengths of these lists
   bool bound_ = false;
 
   gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, offer_contacts_, choose_contacts_,

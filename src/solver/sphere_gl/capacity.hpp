@@ -7,11 +7,11 @@
 
 namespace bin_scenes::sphere_gl {
 
-/// Whether it is a software device that is also used like one.
+/// Returns whether the device is a software device, and is not used like a graphics card (Capacity::as_on_card).
 bool is_software(const Capacity& capacity, const gl::Device& device);
-/// Bodies of a world that a work group of the device can hold.
+/// Returns the largest number of bodies of a world that a work group of the device can hold.
 std::size_t most_bodies(const Capacity& capacity, const gl::Device& device);
-/// Throws for a world of more bodies than that.
+/// Throws an input Error if a world has more bodies than `most`.
 void check_bodies(std::size_t bodies, std::size_t most, const gl::Device& device);
 
 }  // namespace bin_scenes::sphere_gl

@@ -34,23 +34,23 @@ inline sphere::Quatf quat(const gpu::vec4& v) {
   return {v.w, v.x, v.y, v.z};
 }
 
-/// @param diagonal  of the body's part (m)
+/// @param diagonal  diagonal of the bounding box of the body's part (m)
 gpu::SphereBody to_gpu(const sphere::Body& body, float diagonal, std::uint32_t shape, std::uint32_t world);
 gpu::SphereState state_of(const sphere::Body& body);
-/// What the solver touches, and bookkeeping.
+/// Copies pose, velocities and bookkeeping of a body from a state of the device.
 void read_state(const gpu::SphereState& state, sphere::Body& body);
 
 gpu::SphereSettingsBlock to_gpu(const sphere::Settings& settings);
-/// What follows from the phase: samples in use, softness, friction, whether forces are forgotten.
+/// Copies the settings of the stage of settling: samples in use, softness, friction, effort, sleep, forgotten forces.
 void copy_phase(const sphere::World& world, gpu::SphereProgress& progress);
 gpu::SpherePlane to_gpu(const sphere::Plane& plane);
 
-/// Pairs and manifolds of a world as one page of its list holds them; `body` counts from `first_body` on the device.
+/// Pairs and manifolds of a world as on the device, where its bodies begin at the index `first_body`.
 struct ManifoldImage {
   std::vector<gpu::SpherePair> pairs;
-  std::vector<gpu::SphereManifold> manifolds;  ///< by slot
-  std::vector<gpu::SphereContact> contacts;    ///< SPHERE_MAX_CONTACTS to a slot
-  std::vector<gpu::uvec4> ranges;              ///< by body; both pages alike
+  std::vector<gpu::SphereManifold> manifolds;  ///< index: slot of the manifold
+  std::vector<gpu::SphereContact> contacts;    ///< SPHERE_MAX_CONTACTS elements for each slot
+  std::vector<gpu::uvec4> ranges;              ///< by body: begin and end of its pairs (as a) in page 0 and page 1
 };
 ManifoldImage to_gpu(const sphere::World& world, std::uint32_t first_body);
 

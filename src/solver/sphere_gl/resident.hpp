@@ -12,23 +12,23 @@
 
 namespace bin_scenes::sphere_gl {
 
-/// The state of a world when its steps were last read, except for bodies that were changed since.
+/// The host's copy of a world: as it was last read, with the later changes of bodies by the caller.
 struct Resident {
   sphere::World world;
-  std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
+  std::size_t bodies = 0;  ///< number of bodies of the caller; a bin that is a mesh is one more body, after these
   Batch::Slot slot = 0;
-  std::set<std::size_t> changed;   ///< bodies to upload
-  std::vector<Batch::Mark> marks;  ///< by body
+  std::set<std::size_t> changed;   ///< bodies whose states must be uploaded
+  std::vector<Batch::Mark> marks;  ///< index: body
   std::uint64_t steps = 0;
   gpu::SphereProgress progress{};
-  bool progress_changed = true;  ///< it is to be uploaded
-  bool counted = false;          ///< its counters were taken: the device is to begin them anew
-  gpu::SphereWorst worst{};      ///< since it was taken
-  bool worst_taken = false;      ///< the device is to forget it
-  bool known = true;             ///< all of the above is up to date
-  int unread = 0;                ///< series of steps that were issued since it was
+  bool progress_changed = true;  ///< `progress` must be uploaded
+  bool counted = false;          ///< the counters of `progress` were read: the device must set them to 0
+  gpu::SphereWorst worst{};      ///< deepest contact since take_worst_contact()
+  bool worst_taken = false;      ///< take_worst_contact() was called: the device must reset the deepest contact
+  bool known = true;             ///< the members above agree with the device
+  int unread = 0;                ///< number of series of steps that were started since they were last read
 
-  bool watched = false;  ///< states are read only when they are asked for
+  bool watched = false;  ///< the device observes the world (WorldWatch); states are read only on request
   bool wants_states = false;
   gpu::SphereAsk ask{};
   gpu::SphereAudit audit{};
@@ -36,31 +36,31 @@ struct Resident {
   std::vector<WatchedBody> watched_bodies;
 };
 
-/// Worlds whose steps were issued and not observed yet.
+/// Worlds whose steps were started, and whose results were not read yet.
 struct Flight {
   std::vector<WorldId> ids;
   std::vector<Batch::Slot> slots;
-  std::vector<WorldId> read;  ///< those whose states are copied behind the last steps
+  std::vector<WorldId> read;  ///< worlds whose states are read after the last step
   std::unique_ptr<gl::ReadBack> back;
-  float share = 1.0f;  ///< of a whole step that each of the steps is
-  float rest = 0.0f;   ///< the same of a last one that is yet to come; 0: none
+  float share = 1.0f;  ///< length of each step / length of a full step
+  float rest = 0.0f;   ///< the same for one more step that follows the others; 0: none
 };
 
-/// What has contacts with a body: found anew by the passes on the CPU, for which all others sleep.
+/// Returns the bodies that have contacts with `body`. The CPU passes find them, with all other bodies asleep.
 std::vector<std::uint32_t> touched(sphere::World world, std::size_t body);
-/// Bodies that changed since the last steps; and the device forgets a worst contact that was taken.
+/// Uploads the bodies that changed since the last steps, and resets the worst contact on the device if it was taken.
 void upload_changes(Batch& batch, Resident& r);
-/// Provides the room that a world needs by its progress. What it needs of the common lists is added to `samples` and
-/// `candidates`.
+/// Enlarges the lists of a world that were full in its last step. `samples` and `candidates` become at least the
+/// lengths that it needs of the lists that all worlds share.
 void make_room_for(Batch& batch, Resident& r, gpu::uint& samples, gpu::uint& candidates);
-/// Moves the counters of a world to a profile.
+/// Adds the counters of a world to a profile and sets them to 0.
 void take_counters(gpu::SphereProgress& progress, Profile& profile);
 void set_rules(gpu::SphereAsk& ask, const WatchRules& rules);
 void set_ask(gpu::SphereAsk& to, const WatchAsk& from);
 WatchSeen seen_of(const gpu::SphereSeen& seen);
 WatchedEnergy energy_of(const gpu::SphereAudit& audit);
 
-/// Reads what Batch::request() wrote of worlds that were wanted: progress of each, then worst contacts, audits, states.
+/// Reads the data that Batch::request() gives for its worlds `read`: all progress, worst contacts, audits and states.
 void read_residents(const void* from, const std::vector<Resident*>& residents, Profile& profile);
 
 }  // namespace bin_scenes::sphere_gl

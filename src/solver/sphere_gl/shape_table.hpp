@@ -12,8 +12,8 @@ namespace bin_scenes::sphere_gl {
 
 class ShapeTable {
  public:
-  /// Index of a shape on the device; uploads it if it is new. Throws an input Error for a part with more samples than
-  /// the pass takes.
+  /// Returns the index of a shape on the device, and uploads it if it is new. Throws an input Error if the part has
+  /// more samples than find_contacts can process (SPHERE_MAX_CLUSTERS).
   std::uint32_t index_of(const sphere::Shape& shape);
   void bind() const;
   std::size_t bytes() const;

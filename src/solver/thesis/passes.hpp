@@ -13,9 +13,9 @@ class Passes {
  public:
   Passes();
 
-  /// Uploads the data of a batch, except what the device has already, and sizes the scratch buffers.
+  /// Uploads the data of a batch, except data that the device has already, and resizes the buffers of a step's results.
   void load(const Memory& memory);
-  /// One whole step.
+  /// Runs all passes of one step.
   void step();
 
   // The passes in their order.
@@ -37,11 +37,11 @@ class Passes {
 
   /// Returns the states of the bodies. Those that are given to the next load() stay on the device if they are the same.
   const std::vector<gpu::ThesisState>& states();
-  /// Returns the status since load(), and waits for the steps so far.
+  /// Waits for the steps that were started, and returns their status since load().
   gpu::ThesisStatus status();
   std::vector<gpu::ThesisNeed> needs() const;
   std::size_t bytes() const;  ///< size of all buffers on the device
-  /// Everything, for tests.
+  /// Reads all buffers from the device, for tests.
   Memory download() const;
 
   gl::Timer& timer() { return timer_; }
@@ -49,7 +49,7 @@ class Passes {
  private:
   void bind() const;
 
-  Memory held_;  ///< data that was last uploaded or read; without states, which steps have changed since
+  Memory held_;  ///< data that was last uploaded or read; its list of states is empty after a step has changed them
   std::vector<gpu::ThesisSettingsBlock> held_settings_;
   gl::Program force_, move_to_world_, count_cells_, scatter_, reorder_, detect_, plan_, count_pairs_, split_mass_,
       impulse_, pre_velocity_, velocity_, position_;

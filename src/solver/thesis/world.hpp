@@ -17,10 +17,10 @@ inline gpu::vec4 vec4(const Vec3& v, double w = 0.0) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
 }
 
-/// A part as spheres around its centre of mass, in its principal axes.
+/// A part that is represented by spheres. Positions are relative to its centre of mass, in its principal axes.
 struct Shape {
   std::vector<Sphere> spheres;
-  Vec3 gyration = Vec3::Ones();  ///< principal moments / mass (m2)
+  Vec3 gyration = Vec3::Ones();  ///< principal moments of inertia / mass (m2)
   Pose frame;                    ///< from the principal axes to the model frame
   double radius = 0.0;           ///< radius of the bounding sphere around the centre of mass (m)
 };
@@ -29,18 +29,18 @@ struct Shape {
 Shape make_shape(const std::vector<Sphere>& spheres, const MassProperties& mass);
 
 struct World {
-  std::vector<Shape> shapes;  ///< by BodyDef::part
+  std::vector<Shape> shapes;  ///< index: BodyDef::part
   std::vector<BodyDef> bodies;
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   std::vector<gpu::ThesisSheet> sheets;  ///< planes of the bin
   std::vector<Sphere> bin_spheres;       ///< spheres of a bin that is a mesh, in the bin frame
   double bin_friction = 0.5, bin_restitution = 0.0;
-  Aabb domain;  ///< region for which a collision grid is worthwhile; empty: wherever the bodies are
+  Aabb domain;  ///< largest region of the collision grid; empty: the grid includes all bodies
 
-  std::vector<gpu::ThesisState> states;  ///< by body
+  std::vector<gpu::ThesisState> states;  ///< index: body
   std::vector<bool> present;
   std::uint64_t steps = 0;
-  std::size_t contacts_need = 0, neighbours_need = 0;  ///< largest numbers for any sphere, and for any body
+  std::size_t contacts_need = 0, neighbours_need = 0;  ///< most contacts of a sphere, and most neighbours of a body
   bool contacts_dropped = false;
 };
 
@@ -53,8 +53,8 @@ BodyState to_body_state(const gpu::ThesisState& state, const Shape& shape);
 
 /// Returns the sheets of floor and walls of a box, or of the floor only. The floor pushes bodies back from any depth;
 /// walls push them back from within 8 sphere radii or two wall thicknesses, so that bodies outside are not drawn in.
-/// @param radius  radius of the lattice's spheres (m); their distance is 2 radius tightness, and their tops touch the
-/// planes of the bin
+/// @param radius  radius of the lattice's spheres (m), which touch the planes of the bin from outside
+/// @param tightness  distance of neighbouring spheres / (2 radius)
 std::vector<gpu::ThesisSheet> bin_sheets(const Bin& bin, double wall_height, double radius, double tightness);
 
 }  // namespace bin_scenes::thesis

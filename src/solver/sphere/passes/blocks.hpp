@@ -12,7 +12,7 @@
 
 namespace bin_scenes::sphere {
 
-/// Run of a list.
+/// A run of consecutive entries of a list.
 struct Slice {
   const std::uint32_t *first = nullptr, *last = nullptr;
 
@@ -27,13 +27,13 @@ class Blocks {
   /// Smallest number of bodies of a block (except the last one), so that bundles are filled.
   static constexpr std::size_t usual_bodies = 256;
 
-  /// Of the world's colored manifolds. Memory is kept from one step to the next.
+  /// Makes blocks from the world's colored manifolds. Memory is kept from one step to the next.
   void make(const World& world, std::size_t bodies_of_block = usual_bodies);
 
   std::size_t count() const { return body_start_.size() - 1; }
-  /// That move; ascending.
+  /// Returns the indices of the moving bodies of a block, in ascending order.
   Slice bodies(std::size_t block) const { return slice(bodies_, body_start_, block); }
-  /// Manifolds of a block, sorted by color and then in ascending order.
+  /// Returns the manifolds of a block, sorted by color and then in ascending order.
   Slice manifolds(std::size_t block) const { return slice(manifolds_, manifold_start_, block); }
   /// Returns the index of a body within its block. Static bodies and the ground come after all bodies of `block`.
   std::uint32_t place(std::size_t block, std::uint32_t body) const {
@@ -48,9 +48,9 @@ class Blocks {
   void join(const World& world);
   std::uint32_t number(const World& world, std::size_t bodies_of_block);
 
-  DisjointSets groups_;                ///< of bodies that manifolds join
-  std::vector<std::uint32_t> moving_;  ///< bodies
-  std::vector<std::uint32_t> block_;   ///< of bodies
+  DisjointSets groups_;                ///< groups of bodies that manifolds join
+  std::vector<std::uint32_t> moving_;  ///< indices of the moving bodies
+  std::vector<std::uint32_t> block_;   ///< by body: index of its block
   std::vector<std::uint32_t> place_;
   std::vector<std::uint32_t> bodies_, body_start_, manifolds_, manifold_start_;
 };

@@ -11,12 +11,12 @@
 
 namespace bin_scenes::sphere {
 
-/// A point where two surfaces are close, before reduction. Everything in the frame of `a`.
+/// A point where two surfaces are close, before reduction. All vectors are in the frame of body a.
 struct Candidate {
-  Vec3f on_a, on_b;  ///< nearest points
-  Vec3f normal;      ///< a -> b
-  float separation;
-  std::uint32_t feature;
+  Vec3f on_a, on_b;       ///< nearest points of both surfaces (m)
+  Vec3f normal;           ///< unit normal, from a to b
+  float separation;       ///< m along the normal, negative if the surfaces overlap
+  std::uint32_t feature;  ///< Contact::feature
 };
 using Candidates = std::vector<Candidate>;
 
@@ -36,13 +36,13 @@ struct Placement {
   }
 };
 
-/// Samples of both bodies of a pair against the other's field.
-/// @param margin  up to which distance (m)
-/// @param out  is added to
+/// Finds candidates: tests the samples of each body of a pair against the field of the other body.
+/// @param margin  largest separation of a candidate (m)
+/// @param out  the candidates are appended to it
 void candidates_of_pair(const World& world, const Manifold& m, const Placement& a, const Placement& b, float margin,
                         Counters& counters, Candidates& out);
 
-/// Samples of a body against walls and floor, as `candidates_of_pair`.
+/// Tests the samples of a body against walls and floor of the bin; parameters as for candidates_of_pair().
 void candidates_of_ground(const World& world, const Manifold& m, const Placement& a, float margin, Counters& counters,
                           Candidates& out);
 

@@ -8,13 +8,13 @@
 
 namespace bin_scenes::sphere {
 
-/// Outward directions, body frame. A face has one, and a curved face those of its surroundings; an edge those between
-/// its two faces; a corner those between its edges; where the surface is not convex, all.
+/// The outward normals at a feature, body frame. A face has one normal, and a curved face those of its surroundings; an
+/// edge has those between its two faces, and a corner those between its edges. A concave feature has all directions.
 struct Cone {
   static constexpr int max_bounds = 6;
 
-  Vec3f axis = Vec3f::Zero();  ///< axis of a face
-  float spread = 0;            ///< rad around the axis
+  Vec3f axis = Vec3f::Zero();  ///< unit normal of a face, axis of its cone
+  float spread = 0;            ///< rad, largest angle between a normal and the axis
   /// Number of bounds of an edge or corner. Without bounds and axis, the cone has all directions.
   int bounds = 0;
   /// The cone is { n : n . bound <= 0 for every bound }; the bounds are unit vectors along the surface.

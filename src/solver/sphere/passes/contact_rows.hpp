@@ -19,12 +19,12 @@ using Mask = LaneMask;
 #include "shared/sphere/contact.h"
 #include "shared/sphere/patch.h"
 
-/// How a body moves while contacts are solved (world frame): x, y, z and a fourth value.
+/// The motion of a body while contacts are solved (world frame). Each vector is x, y, z and a fourth value.
 struct alignas(64) Motion {
-  Quad v{};       ///< m/s; fourth: inverse mass (1/kg), 0 = nothing moves it in this step
+  Quad v{};       ///< m/s; fourth: inverse mass (1/kg), 0 = the body is immovable in this step
   Quad w{};       ///< rad/s
-  Quad moved{};   ///< m since contacts were found
-  Quad turned{};  ///< rotation vector since contacts were found
+  Quad moved{};   ///< displacement since contacts were found (m)
+  Quad turned{};  ///< rotation vector since contacts were found (rad)
 
   float inverse_mass() const { return v[3]; }
 };
@@ -40,39 +40,39 @@ inline Vec3f vector_of(Quad q) {
 /// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
 /// nothing.
 struct ContactRows {
-  LaneVec normal, tangent;                     ///< the second tangent is normal x tangent
-  LaneVec moment_a, moment_b, turn_a, turn_b;  ///< of a unit impulse along the normal: arm x normal, and the spin given
-  LaneVec ra, rb;  ///< from the centres of mass to one common point, world frame; hold for a step, or for a sub-step
-                   ///< of what is hit (m)
-  Lanes normal_mass{}, tangent_mass{};                 ///< effective (kg)
-  Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
-  Lanes separation{};                                  ///< when contacts were found (m)
-  Lanes approach{};            ///< speed at which the two meet if they do in this step, m/s; negative = closing
-  Lanes lasting{};             ///< normal impulse that the sub-step began with (N s)
-  Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation when last observed
+  LaneVec normal, tangent;                     ///< unit vectors; the second tangent is normal x tangent
+  LaneVec moment_a, moment_b, turn_a, turn_b;  ///< moment (arm x normal) and spin of a unit impulse along the normal
+  LaneVec ra, rb;  ///< lever arms from the centres of mass to a common point (m, world frame); constant in a step, or
+                   ///< in a sub-step if Bundle::refreshed
+  Lanes normal_mass{}, tangent_mass{};                 ///< effective masses (kg)
+  Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< impulses of one sub-step (N s)
+  Lanes separation{};                                  ///< distance when contacts were found (m)
+  Lanes approach{};            ///< relative speed when both meet, if they do in this step (m/s); negative = closing
+  Lanes lasting{};             ///< normal impulse at the start of the sub-step (N s)
+  Lanes max_impulse{}, gap{};  ///< largest normal impulse (N s); distance when last computed (m)
 };
 
-using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< places in their block
+using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< indices of bodies within their block
 
-/// Eight manifolds of one color. Empty lanes name the ground for both bodies.
+/// Eight manifolds of one color. In unused lanes, both bodies are the ground.
 struct Bundle {
   LaneBodies a{}, b{};
   std::array<std::uint32_t, lane_count> manifold{};
-  int lanes = 0;  ///< in use
+  int lanes = 0;  ///< number of lanes in use
   int color = 0;
-  bool paired = false;        ///< solved together with the next one, which is of the same color
-  LaneMask strikes{};         ///< some contact closes at Settings::restitution_speed
-  LaneMask refreshed{};       ///< strikes, and no ball is in it: the point where a ball touches does not turn with it
-  std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
+  bool paired = false;        ///< whether it is solved together with the next bundle, which has the same color
+  LaneMask strikes{};         ///< manifolds with a contact that closes at Settings::restitution_speed or faster
+  LaneMask refreshed{};       ///< those of them without a ball: their lever arms are computed in each sub-step
+  std::uint32_t first, last;  ///< range of its rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
-  Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
-  LaneSymmetric inverse_inertia_a, inverse_inertia_b;  ///< world frame, 0 for what cannot move
+  Lanes tipping_arm{};                                 ///< m: moment of rolling friction / normal force; 0 with a ball
+  LaneSymmetric inverse_inertia_a, inverse_inertia_b;  ///< world frame; 0 for immovable bodies
 
   std::uint32_t rows() const { return last - first; }
 };
 
-/// Takes from an impulse what was an impact (`speed`: impact_speed()). What bounces keeps the impulse of its impact,
-/// which the bounce may have to take back, until it has bounced.
+/// Removes from an impulse the part that was an impact (`speed`: impact_speed()). A contact that will bounce keeps the
+/// impulse of its impact until it has bounced, because the bounce may have to reduce it.
 inline void forget_impact(ContactRows& c, const Bundle& bundle, float speed, float restitution_speed) {
   const LaneMask bounces = (bundle.restitution > 0.0f) & (c.approach <= -restitution_speed);
   const Lanes share = select(bounces, all_lanes(1), lasting_share(c.normal_impulse, c.lasting, c.normal_mass, speed));
@@ -84,22 +84,22 @@ struct Velocities {
   LaneVec va, wa, vb, wb;
   Lanes inverse_mass_a{}, inverse_mass_b{};
 
-  /// Returns the speed at which b's point of the contact moves away from a's (m/s).
+  /// Returns the velocity of b's contact point relative to that of a (m/s).
   LaneVec at(const ContactRows& c) const { return vb + cross(wb, c.rb) - va - cross(wa, c.ra); }
 
-  /// The same along the normal.
+  /// Returns the component of this velocity along the normal (m/s), positive if the points separate.
   Lanes along_normal(const ContactRows& c) const {
     return dot(c.normal, vb - va) + dot(c.moment_b, wb) - dot(c.moment_a, wa);
   }
 
-  /// `impulse` on b (N s), its opposite on a.
+  /// Applies `impulse` (N s) to b, and the opposite impulse to a.
   void push(const LaneVec& impulse, const ContactRows& c, const Bundle& bundle) {
     va = va - inverse_mass_a * impulse;
     wa = wa - bundle.inverse_inertia_a * cross(c.ra, impulse);
     vb = vb + inverse_mass_b * impulse;
     wb = wb + bundle.inverse_inertia_b * cross(c.rb, impulse);
   }
-  /// The same along the normal.
+  /// Does the same with an impulse along the normal (N s).
   void push_along_normal(Lanes impulse, const ContactRows& c) {
     va = va - (inverse_mass_a * impulse) * c.normal;
     wa = wa - impulse * c.turn_a;
@@ -112,7 +112,7 @@ struct Velocities {
 struct Displacements {
   LaneVec moved_a, turned_a, moved_b, turned_b;
 
-  /// That b's point went away from a's along the normal (m), to first order in the turn.
+  /// Returns the increase of the distance of both points along the normal (m), to first order in the rotations.
   Lanes along(const ContactRows& c) const {
     return dot(c.normal, moved_b - moved_a) + dot(c.moment_b, turned_b) - dot(c.moment_a, turned_a);
   }
@@ -155,7 +155,7 @@ inline Displacements displacements_of(const Bundle& bundle, const std::vector<Mo
           gather(bundle.b, motions, &Motion::moved), gather(bundle.b, motions, &Motion::turned)};
 }
 
-/// Puts velocities back. The ground and what cannot move get what they had.
+/// Stores the velocities of a bundle's bodies. Those of the ground and of immovable bodies do not change.
 inline void store(const Velocities& velocities, const Bundle& bundle, std::vector<Motion>& motions) {
   scatter(velocities.va, velocities.inverse_mass_a, bundle.a, &Motion::v, motions);
   scatter(velocities.wa, Lanes{}, bundle.a, &Motion::w, motions);
@@ -163,8 +163,8 @@ inline void store(const Velocities& velocities, const Bundle& bundle, std::vecto
   scatter(velocities.wb, Lanes{}, bundle.b, &Motion::w, motions);
 }
 
-/// Bundles of one color, which share no moving body and may be swept in any order; and those without a color, one by
-/// one.
+/// The bundles of one color: they share no moving body and may be solved in any order. If `in_turn`, they are those of
+/// the manifolds without a color of their own, which are solved one by one.
 struct Color {
   std::uint32_t first, last;
   bool in_turn;
@@ -174,9 +174,9 @@ struct Color {
 struct Scratch {
   /// Motions of the block's bodies, followed by those of static bodies: see make_bundles().
   std::vector<Motion> motions;
-  std::vector<char> free;    ///< whether nothing is near a body
-  std::vector<char> slides;  ///< whether a body has a contact that slips; static bodies follow
-  /// m/s, speeds of bodies at the start of the sub-step, including rotation at their radius.
+  std::vector<char> free;    ///< by body: whether it has no contacts
+  std::vector<char> slides;  ///< by body: whether it has a contact that slips; static bodies follow
+  /// Speeds of bodies at the start of the sub-step, including rotation at their radius (m/s).
   std::vector<float> speeds;
   std::vector<Bundle> bundles;  ///< in order of color
   std::vector<Color> colors;
@@ -198,7 +198,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
 /// (shared/sphere/row.h).
 void refresh_levers(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
                     std::vector<ContactRows>& rows);
-/// Stores the impulses in the contacts as forces.
+/// Stores the impulses of a sub-step of `h` seconds in the contacts, as forces.
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);
 
 }  // namespace bin_scenes::sphere

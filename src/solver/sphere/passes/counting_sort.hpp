@@ -12,7 +12,7 @@
 
 namespace bin_scenes::sphere {
 
-/// Stable: `items` into `sorted`, by `key(item)` below `count`; `start` of each key's run, and where the last one ends.
+/// Sorts `items` stably by `key(item)` < `count` into `sorted`. `start`: index of each key's first item, then the end.
 template <class Items, class Item, class Key>
 void counting_sort(const Items& items, std::size_t count, const Key& key, std::vector<std::uint32_t>& start,
                    std::vector<Item>& sorted) {

@@ -6,7 +6,7 @@
 
 namespace bin_scenes::sphere {
 
-/// radius: of the patch (m).
+/// Applies the torques by which contact patches resist rotation to the velocities `u`. radius: of a patch (m).
 inline void resist_turn(const Bundle& bundle, const std::vector<ContactRows>& rows, Lanes radius, Lanes friction,
                         Velocities& u) {
   Patch patch = open_patch(LaneVec{});
@@ -24,7 +24,7 @@ inline void resist_turn(const Bundle& bundle, const std::vector<ContactRows>& ro
   resist(patch.tip_axis, patch.tipping, most_against_tipping(patch, radius, bundle.tipping_arm));
 }
 
-/// Which contacts press, or have friction left to take back. Half of all only wait for their gap to close.
+/// Returns which contacts press, or have friction impulses left. Half of all contacts only wait for their gap to close.
 inline LaneMask has_friction(const ContactRows& c) {
   return (c.normal_impulse > 0.0f) | (c.t1_impulse != 0.0f) | (c.t2_impulse != 0.0f);
 }

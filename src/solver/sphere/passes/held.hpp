@@ -1,5 +1,5 @@
-/// The effects of a gripper in the solve of a block: jaws that stay on their axis, and the pull of a vacuum. It is used
-/// while a grasp is proved, and costs nothing in other scenes.
+/// The effects of a gripper in the solve of a block: jaws that stay on their axis, and the pull of a vacuum. This code
+/// runs only while a grasp is proved, and costs nothing in other scenes.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"
@@ -9,9 +9,9 @@
 
 namespace bin_scenes::sphere {
 
-/// The world's jaws, if they are in this block. Contacts may push them anywhere; after each color only their common
-/// closing speed is left of that, and the rest of their motion is the hand's. Contacts thus press with the jaws' force
-/// and find a hand that nothing moves, whatever the mass of the jaws.
+/// The jaws of the world, if they are in this block. Contacts may push jaws in any direction; after each color, only
+/// the change of their common closing speed is kept, and otherwise they move with the hand. Contacts therefore press
+/// with the force of the jaws, and the hand does not yield, whatever the mass of the jaws.
 class HeldJaws {
  public:
   HeldJaws(const World& world, const Blocks& blocks, std::size_t block) {
@@ -32,7 +32,7 @@ class HeldJaws {
     motions[first_].v[3] = motions[second_].v[3] = 1.0f / jaws_->mass;
     move(closing(motions), motions);
   }
-  /// The force of a sub-step (s).
+  /// Applies the force of the jaws for a sub-step (s).
   void press(float sub_step, std::vector<Motion>& motions) const {
     if (jaws_) move(std::min(closing(motions) + sub_step * jaws_->force / jaws_->mass, jaws_->speed), motions);
   }
@@ -42,7 +42,7 @@ class HeldJaws {
 
  private:
   static Vec3f vector(const Quad& q) { return {q[0], q[1], q[2]}; }
-  /// m/s, of each.
+  /// Returns the closing speed of each jaw (m/s).
   float closing(const std::vector<Motion>& motions) const {
     return 0.5f * jaws_->axis.dot(vector(motions[first_].v) - vector(motions[second_].v));
   }
@@ -56,10 +56,10 @@ class HeldJaws {
   }
 
   const JawPair* jaws_ = nullptr;
-  std::uint32_t first_ = 0, second_ = 0;  ///< places in the block
+  std::uint32_t first_ = 0, second_ = 0;  ///< indices of the jaws in the block
 };
 
-/// Forces on bodies of a block, for a sub-step (s).
+/// Applies the forces of World::pulls to bodies of a block, for a sub-step (s).
 inline void pull(const World& world, const Blocks& blocks, std::size_t block, float sub_step,
                  std::vector<Motion>& motions) {
   for (const Pull& pull : world.pulls) {

@@ -8,9 +8,9 @@
 
 #include <cstdint>
 
-/// Before a function, with all that it calls: the compiler makes one version for any x86-64 and one for AVX2, and the
-/// machine picks at load time. Neither fuses multiply and add, so both give the same bits. With sanitizers there is one
-/// version: the choice is made before a sanitizer has started, and would crash in it.
+/// Attribute of a function: the compiler makes one version of it, with all that it calls, for any x86-64 and one for
+/// AVX2, and one is selected at load time. Neither fuses multiply and add, so both give the same bits. With sanitizers
+/// there is one version: the selection runs before a sanitizer has started, and would crash in it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define BIN_SCENES_WIDE __attribute__((target_clones("avx2", "default"), flatten))
@@ -37,7 +37,7 @@ inline Lanes max(Lanes a, Lanes b) {
 inline Lanes select(LaneMask condition, Lanes yes, Lanes no) {
   return condition ? yes : no;
 }
-/// Exact, as of a single float.
+/// Returns the square roots, rounded like those of single floats.
 inline Lanes sqrt(Lanes a) {
   Lanes root;
   for (int lane = 0; lane < lane_count; ++lane) root[lane] = __builtin_sqrtf(a[lane]);
@@ -49,7 +49,7 @@ inline bool any(LaneMask m) {
   return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
 }
 
-/// Eight vectors of three.
+/// Eight vectors with three components.
 struct LaneVec {
   Lanes x{}, y{}, z{};
 
@@ -76,7 +76,7 @@ inline Lanes dot(const LaneVec& a, const LaneVec& b) {
 inline LaneVec cross(const LaneVec& a, const LaneVec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Zero of zero.
+/// Returns the unit vectors; 0 for vectors of length 0.
 inline LaneVec unit(const LaneVec& a) {
   const Lanes length = sqrt(dot(a, a));
   return (length > 0.0f ? all_lanes(1) / length : all_lanes(0)) * a;
@@ -101,10 +101,10 @@ inline LaneVec operator*(const LaneSymmetric& m, const LaneVec& v) {
           m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
 
-/// One vector of three with a fourth value, as bodies keep them.
+/// A vector with three components and a fourth value, in the layout of the data of bodies.
 using Quad = float __attribute__((vector_size(16)));
 
-/// Rows become columns: four vectors of (x, y, z, w) into all x, all y, all z, all w, and back.
+/// Transposes a 4 x 4 matrix: four vectors (x, y, z, w) become all x, all y, all z, all w, and vice versa.
 inline void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
   const Quad ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
   const Quad cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);

@@ -9,15 +9,15 @@ namespace bin_scenes::sphere {
 
 #include "shared/sphere/choice.h"
 
-/// The few candidates that represent all (shared/sphere/choice.h).
+/// Selects the few candidates that represent all (shared/sphere/choice.h).
 /// @param old  manifold of the last step
-/// @param size  of the smaller part (m)
-/// @param soon  gap beyond the least up to which is about to touch (m)
-/// @param chosen  indices of at most max_contacts candidates
+/// @param size  size of the smaller part (m)
+/// @param soon  candidates whose gap exceeds the smallest gap by no more than this are about to touch (m)
+/// @param chosen  receives the indices of at most max_contacts candidates
 void reduce(const Candidates& candidates, const Manifold& old, float size, float soon, std::vector<int>& chosen);
 
-/// Forces of the last step's contacts: by feature, unless features mean other points now (Manifold::found), else from
-/// the nearest with a like normal.
+/// Copies the forces of the last step's contacts to the new ones: by feature, unless features mean other points now
+/// (Manifold::found), and otherwise from the nearest contact with a similar normal.
 /// @param near  largest distance of such contacts (m)
 void carry_forces(const Manifold& old, std::vector<Contact>& fresh, float near);
 

@@ -9,7 +9,7 @@ namespace bin_scenes::sphere {
 
 class Restitution {
  public:
-  /// h: s, of a sub-step. speed: m/s, of what bounces.
+  /// h: duration of a sub-step (s). speed: approach speed from which contacts bounce (m/s).
   Restitution(const std::vector<Bundle>& bundles, std::vector<ContactRows>& rows, std::vector<Motion>& motions, float h,
               float speed)
       : bundles_(bundles), rows_(rows), motions_(motions), h_(h), speed_(speed) {}

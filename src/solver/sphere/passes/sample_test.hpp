@@ -8,14 +8,14 @@
 
 namespace bin_scenes::sphere {
 
-/// The body whose samples are tested, and its pose in the frame of the field.
+/// The test of the samples of one body against the distance field of another, with their relative pose and motion.
 struct View {
-  /// A body as far as the tests need it.
+  /// The data of a body that the tests need.
   struct Tested {
     const Samples& samples;
     const Field& field;
   };
-  /// `sampled` against the field of `solid`; what touches is added to `out`.
+  /// Tests `sampled` against the field of `solid`; the tests append candidates to `out`.
   View(const Tested& sampled, const Tested& solid, const Carry& to_the_field, const Carry& to_first, Candidates& out)
       : samples(sampled.samples),
         other(solid.samples),
@@ -26,20 +26,20 @@ struct View {
         found(out) {}
 
   const Samples& samples;
-  const Samples& other;  ///< of the field's body
-  const Field& own;      ///< of the samples' body
+  const Samples& other;  ///< samples of the body that has the field
+  const Field& own;      ///< field of the body that has the samples
   const Field& field;
-  const Carry &to_field, &to_a;  ///< to_a: from the field's frame to that of the pair's first body
-  std::uint32_t side = 0;        ///< SPHERE_SIDE_B: the field's frame is that of the first body
+  const Carry &to_field, &to_a;  ///< to_field: into the field's frame; to_a: from there to the pair's first body
+  std::uint32_t side = 0;        ///< SPHERE_SIDE_B if the field is that of the pair's first body, else 0
   Vec3f drift = Vec3f::Zero(),
-        twist = Vec3f::Zero();  ///< displacement and turn of the samples over the field until the step ends (m, rad)
-  float margin = 0;             ///< up to which distance (m)
+        twist = Vec3f::Zero();  ///< predicted motion of the samples in the field until the step ends (m, rad)
+  float margin = 0;             ///< largest separation of a candidate (m)
   bool way_back = false;        ///< Settings::way_back
-  Candidates& found;            ///< what touches is added
-  Vec3f ahead = Vec3f::Zero();  ///< from where a sample is to where it is looked at (m)
+  Candidates& found;            ///< candidates are appended to it
+  Vec3f ahead = Vec3f::Zero();  ///< displacement of a sample to the predicted position at which it is tested (m)
 };
 
-/// Bounding spheres first.
+/// Tests all samples of a view, beginning with the bounding spheres of the clusters.
 void test_samples(const View& view, Counters& counters);
 
 }  // namespace bin_scenes::sphere

@@ -34,7 +34,7 @@ struct Solid {
   bool is_plane;
   const Field& field;
   Plane plane;
-  float top;  ///< m: where walls end
+  float top;  ///< m: height at which walls end
 };
 
 inline Solid solid_of(const Field& field) {

@@ -18,7 +18,7 @@ namespace bin_scenes::sphere {
 
 class Team {
  public:
-  /// Runs `lead()` with this team, and other threads of the arena as its helpers while it lasts.
+  /// Runs `lead()` with this team; until it returns, up to `helpers` other threads of the arena help.
   template <class Lead>
   void run(int helpers, const Lead& lead) {
     tbb::task_group group;
@@ -36,7 +36,7 @@ class Team {
     lead();
   }
 
-  /// `work(first, last)` for pieces of `grain` of 0 to `count`, in no order. Returns when all are done.
+  /// Calls `work(first, last)` for pieces of the range 0 to `count`, in any order, and returns when all are done.
   template <class Work>
   void share(std::uint32_t count, std::uint32_t grain, const Work& work) {
     if (!helped_ || count <= grain) {
@@ -58,10 +58,10 @@ class Team {
   }
 
  private:
-  // The ticket: number of the loop, and below it how much of the loop is not claimed yet.
+  // The ticket contains the number of the loop and, in its lower 32 bits, how much of the loop is not claimed yet.
   static constexpr std::uint64_t next_loop = std::uint64_t{1} << 32;
 
-  /// Does a piece of the loop, if one is left. The loop's function and range stay as they are until the piece is done.
+  /// Executes a piece of the loop, if one is left. The loop's function and range do not change until the piece is done.
   bool claim() {
     std::uint64_t ticket = ticket_.load(std::memory_order_acquire);
     while (const auto left = static_cast<std::uint32_t>(ticket)) {

@@ -16,15 +16,15 @@ struct EdgeGrid {
   static constexpr int block = SPHERE_EDGE_BLOCK;
   static constexpr float reach = SPHERE_EDGE_REACH;
 
-  int row = 0, slice = 0;            ///< blocks along x, and of a layer along x and y
-  std::vector<std::uint32_t> first;  ///< by block, x fastest: start of its list; with one more entry at the end
-  std::vector<std::uint32_t> edges;  ///< the lists, each in ascending order
+  int row = 0, slice = 0;            ///< number of blocks along x; number in one layer of x and y
+  std::vector<std::uint32_t> first;  ///< by block, x fastest: start of its list in `edges`; then the size of `edges`
+  std::vector<std::uint32_t> edges;  ///< edge lists of all blocks, each in ascending order
 
-  /// The list at `point` (of the field's frame, anywhere): first and end of it in `edges`. Empty without a grid.
+  /// Returns the list near `point` (field's frame, anywhere): its first and end index in `edges`. Empty without a grid.
   std::pair<std::uint32_t, std::uint32_t> near(const Field& field, const Vec3f& point) const;
 };
 
-/// Empty for a ball.
+/// Makes the edge grid of a part; it is empty for a ball.
 EdgeGrid make_edge_grid(const Samples& samples, const Field& field);
 
 }  // namespace bin_scenes::sphere

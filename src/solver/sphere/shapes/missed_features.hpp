@@ -1,5 +1,5 @@
-/// Finds features between the nodes of a draft that protrude, so that no node would detect a contact there.
-/// contact_samples.cpp then adds nodes.
+/// Finds features that protrude between the nodes of a draft, where no node would detect a contact, and adds nodes to
+/// the draft there. contact_samples.cpp uses it.
 #pragma once
 
 #include "solver/sphere/shapes/sample_draft.hpp"
@@ -10,14 +10,14 @@ namespace bin_scenes::sphere {
 /// slides along it.
 double bulge(const Cone& cone, double face_spacing);
 
-/// Adds the vertices that stick out between the nodes by more than `most` (m). Where the folds of a bend lie about the
-/// angle that makes an edge, some of them are edges, and what lies between those counts as covered by their nodes,
-/// which do not slide: nothing felt the crown of a handle.
+/// Adds nodes at vertices that protrude between the nodes by more than `most` (m). In a bend whose folds are about as
+/// large as the angle that defines an edge, only some folds are edges. The places between these edges count as covered
+/// by their nodes, which do not slide, so that no node detected the crown of a handle.
 void add_missed_vertices(const Mesh& mesh, double face_spacing, double most, Draft& draft);
 
-/// Adds the long edges of the mesh that stick out between the nodes by more than `most` (m): the strips of which an
-/// edge that is rounded is made are too narrow for nodes of faces, bend too little for sharp edges, and their vertices
-/// lie at their ends.
+/// Adds nodes on long edges of the mesh that protrude between the nodes by more than `most` (m). The strips of which a
+/// rounded edge consists are too narrow for nodes of faces and bend too little for sharp edges, and their vertices are
+/// at their ends.
 void add_missed_ridges(const Mesh& mesh, double face_spacing, double spacing, double most, Draft& draft);
 
 }  // namespace bin_scenes::sphere

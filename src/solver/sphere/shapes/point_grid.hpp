@@ -14,7 +14,7 @@ class PointGrid {
   /// `reach` (m) is the radius of most searches; searches with other radii are correct as well.
   PointGrid(std::vector<Vec3> points, double reach);
 
-  /// Whether visit(index) returned true for any point within `radius` of the place; it stops at the first one.
+  /// Returns whether visit(index) was true for any point within `radius` (m) of `place`; stops at the first such point.
   template <class Visit>
   bool any_within(const Vec3& place, double radius, Visit&& visit) const {
     if (points_.empty()) return false;
@@ -30,7 +30,7 @@ class PointGrid {
 
  private:
   using Cell = std::array<int, 3>;
-  Cell cell_of(const Vec3& point) const;  ///< the nearest one for a point outside
+  Cell cell_of(const Vec3& point) const;  ///< cell of a point; the nearest cell for a point outside of the grid
   std::size_t index_of(const Cell& cell) const {
     return cell[0] + cells_[0] * (cell[1] + static_cast<std::size_t>(cells_[1]) * cell[2]);
   }
@@ -39,8 +39,8 @@ class PointGrid {
   Vec3 origin_ = Vec3::Zero();
   double cell_ = 1.0;
   Cell cells_ = {1, 1, 1};
-  std::vector<std::size_t> order_;  ///< points, cell after cell
-  std::vector<std::size_t> first_;  ///< start of each cell in the sorted points
+  std::vector<std::size_t> order_;  ///< indices of the points, sorted by cell
+  std::vector<std::size_t> first_;  ///< start of each cell in order_
 };
 
 }  // namespace bin_scenes::sphere

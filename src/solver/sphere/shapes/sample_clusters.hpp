@@ -6,10 +6,10 @@
 
 namespace bin_scenes::sphere {
 
-/// In the body frame: `center` is the centre of mass in model axes (m); `spacing` that of the draft's edges (m).
+/// Returns the samples in the body frame. `center`: centre of mass (model frame, m); `spacing`: of edges (m).
 Samples clustered(Draft draft, const Vec3& center, double spacing);
 
-/// Points by component, from nodes and clusters; the last point fills up what is left of a bunch.
+/// Copies nodes and cluster centres into Points, by component; the last point also fills the unused places at the end.
 void lay_out(Samples& samples);
 
 }  // namespace bin_scenes::sphere

@@ -10,20 +10,20 @@
 namespace bin_scenes::sphere {
 
 struct Draft {
-  std::vector<Vec3> nodes;  ///< m
+  std::vector<Vec3> nodes;  ///< m, model frame
   std::vector<Cone> cones;  ///< normal cones of the nodes
   std::vector<Edge> edges;
-  std::vector<std::uint32_t> at_vertex;  ///< by vertex of the mesh: the node at the vertex, or `none`
+  std::vector<std::uint32_t> at_vertex;  ///< by vertex of the mesh: index of the node at the vertex, or `none`
 
   static constexpr std::uint32_t none = 0xffffffffu;
 
-  /// Number of the new node.
+  /// Adds a node and returns its index.
   std::uint32_t add(const Vec3& node, const Cone& cone);
-  /// Between two vertices that have nodes, in pieces no longer than `spacing` (m).
+  /// Adds the edge between two vertices that have nodes, in pieces no longer than `spacing` (m).
   void add_edge(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Cone& cone, bool sharp, double spacing);
 };
 
-/// Sharp edges cut in pieces no longer than `spacing` (m); corners appear once.
+/// Returns a draft of the sharp edges, cut into pieces no longer than `spacing` (m). Each corner is one node.
 Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing);
 
 }  // namespace bin_scenes::sphere

@@ -16,16 +16,16 @@ namespace bin_scenes::sphere {
 
 class ShapeCache {
  public:
-  /// @param change  is done to each shape once it is made; none: nothing
+  /// @param change  is applied to each shape after it is made; none: shapes are not changed
   explicit ShapeCache(const SphereSettings& settings, std::function<void(Shape&)> change = {})
       : settings_(settings), change_(std::move(change)) {}
 
-  /// Made on first use, as stage "shape" of the profile; stays where it is for the cache's life.
+  /// Returns the shape of a part, which is made on first use (stage "shape" of the profile). Its address never changes.
   const Shape& of(const PartModelPtr& part, Profile& profile) {
     Entry& entry = entries_[part.get()];
     if (!entry.shape) {
       StageTimer timer(profile, "shape");
-      entry.part = part;  // keeps the address, and with it the key, alive
+      entry.part = part;  // the address is the key; this keeps it valid
       entry.shape = std::make_unique<Shape>(make_shape(*part, settings_.coarse_samples, settings_.fine_samples,
                                                        settings_.field_cell, settings_.field_nodes));
       if (change_) change_(*entry.shape);
