@@ -43,6 +43,8 @@ parts:
     poses: [[0, 0, 0.5]]
     fixed: true
     motion: {belt: [0.3, 0, 0]}
+  - {model: nut.stl, count: 4, distractor: true, on_table: 0.2}
+table: {height: -0.01, mottle: 0.2, patch: 0.08}
 pour:
   pattern: given
   drop_height: 0.03
@@ -105,7 +107,7 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.bin.motion.frequency, 4.0);
   EXPECT_EQ(r.bin.motion.seconds, 3.0);
   EXPECT_EQ(r.gravity, Vec3(0.1, 0, -9.80665));
-  ASSERT_EQ(r.parts.size(), 2u);
+  ASSERT_EQ(r.parts.size(), 3u);
   const PartLine& p = r.parts[0];
   EXPECT_EQ(p.model, "bolt.stl");
   EXPECT_EQ(p.path, (dir / "bolt.stl").string());
@@ -129,6 +131,12 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.parts[1].mass, 0.02);
   EXPECT_TRUE(r.parts[1].fixed);
   EXPECT_EQ(r.parts[1].motion.belt, Vec3(0.3, 0, 0));
+  EXPECT_FALSE(r.parts[1].distractor);
+  EXPECT_TRUE(r.parts[2].distractor);
+  EXPECT_EQ(r.parts[2].on_table, 0.2);
+  EXPECT_EQ(r.table.height, -0.01);
+  EXPECT_EQ(r.table.mottle, 0.2);
+  EXPECT_EQ(r.table.patch, 0.08);
   EXPECT_EQ(r.pour.pattern, Pour::Pattern::given);
   EXPECT_EQ(r.pour.drop_height, 0.03);
   EXPECT_EQ(r.pour.grid_spacing, 1.25);

@@ -184,11 +184,11 @@ TEST_F(SceneJson, BrokenFilesAreNamedWithTheKey) {
     }
   };
   expect("{", "is not valid JSON, or is incomplete");
-  expect("{\n\"format\": \"bin_scenes/1\",\n???}", "from byte 29 on");
-  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed': holds \"one\" where a whole");
+  expect("{\n\"format\": \"bin_scenes/1\",\n???}", "error is at byte 29");
+  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed': is \"one\", but must be a whole");
   // Casts of what does not fit: found by the fuzzer.
   expect(R"({"format": "bin_scenes/1", "seed": 744444444444444444444444444444, "index": 0})", "whole number");
-  expect(R"({"format": "bin_scenes/1", "seed": 1, "index": -1})", "holds -1 where");
+  expect(R"({"format": "bin_scenes/1", "seed": 1, "index": -1})", "is -1, but must be");
   expect(R"({"format": "bin_scenes/1", "seed": 1, "index": 0, "parts": [{"id": 3000000000}]})", "parts[0]");
   expect("[]", "format");
   expect(R"({"format": "bin_scenes/9"})", "bin_scenes/1");

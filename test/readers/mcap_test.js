@@ -290,7 +290,7 @@ test("a plan names a profile only for files it writes", () => {
   fs.writeFileSync(path.join(work, "bad.yaml"), "scenes: 1\noutputs: [json]\nmcap: ros3\nrequest: {parts: [{model: a.stl}]}\n");
   assert.throws(() => execFileSync(tool, ["dataset", "bad.yaml", "--out", "bad"], { cwd: work, stdio: "pipe" }), (error) => {
     assert.equal(error.status, 2);
-    assert.match(String(error.stderr), /bad.yaml:3.*outputs has none/);
+    assert.match(String(error.stderr), /bad.yaml:3.*does not contain mcap/);
     assert.match(String(error.stderr), /bad.yaml:3.*ros3.*ros1 or ros2/);
     return true;
   });
