@@ -123,7 +123,7 @@ TEST(Resolve, ProjectorIsChecked) {
   sensor.projector.pose = Pose{Vec3(0.2, 0, 1.0), Quat::Identity()};
   EXPECT_NE(refusal(sensor).find("projector looks away"), std::string::npos);
   sensor.projector.pose = Pose{Vec3(0.2, 0, -1.0), Quat::Identity()};
-  EXPECT_NE(refusal(sensor).find("position of the camera"), std::string::npos);
+  EXPECT_NE(refusal(sensor).find("projector stands"), std::string::npos);
   sensor.projector.pose = resolved(sensor, Bin()).pose;
   EXPECT_NE(refusal(sensor).find("triangulation"), std::string::npos);
 }
