@@ -169,6 +169,12 @@ class Style(unittest.TestCase):
                 text = (ROOT / path).read_text()
                 self.assertTrue(text.startswith("///") or text.count("\n") <= 150, path + " begins without saying what it does")
 
+    def test_scripts_can_be_started(self):
+        """Git keeps whether a file may be executed; CTest starts the tests' scripts by their names alone."""
+        started = [p for p in PATHS if (ROOT / p).read_bytes()[:2] == b"#!"]
+        self.assertGreater(len(started), 40)
+        self.assertEqual([p for p in started if not os.access(ROOT / p, os.X_OK)], [])
+
     def test_slips_in_shell(self):
         files = list(scripts(".sh", b"bash"))
         self.assertGreater(len(files), 10)

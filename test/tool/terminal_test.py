@@ -171,19 +171,22 @@ class Progress(Folder):
         self.addCleanup(terminal.close)
         return terminal
 
-    LONG_JOB = ("generate", "heaps.yaml", "--out", "out", "--scenes", "300")  # killed before
+    def long_job(self, columns, **variables):
+        """A job that is killed before it ends. Each has a folder of its own, so that none finds scenes of another."""
+        return self.run_in(columns, "generate", "heaps.yaml", "--out", f"out_{columns}", "--scenes", "30000", **variables)
 
     def test_how_far_and_how_long(self):
-        terminal = self.run_in(100, *self.LONG_JOB, NO_COLOR="")
+        terminal = self.long_job(100, NO_COLOR="")
         text = terminal.read(r"scene [1-9]\d* \w+[^\r]*, \d+:\d\d left")
         self.assertIn("\033[32m#" if "#" in text else "[....", text)
         self.assertNotIn("\n", text)
 
     def test_a_narrow_terminal_has_one_line(self):
         for columns in (70, 50, 24):
-            terminal = self.run_in(columns, *self.LONG_JOB, NO_COLOR="1")
-            lines = terminal.read("(\033\\[K[^\033]+){12}").split("\r\033[K")[1:]
-            self.assertGreater(len(lines), 10)
+            terminal = self.long_job(columns, NO_COLOR="1")
+            text = terminal.read("(\033\\[K[^\033]+){12}")
+            lines = text.split("\r\033[K")[1:]
+            self.assertGreater(len(lines), 10, text)
             for line in lines:
                 self.assertLess(len(line), columns, line)
                 self.assertNotIn("\033", line)  # NO_COLOR
