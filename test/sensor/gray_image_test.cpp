@@ -1,5 +1,6 @@
 /// Grey images of range sensors: exposed for the parts, whatever their albedo, and without what makes depth err.
 #include "bin_scenes/sensor/gray_image.hpp"
+#include "bin_scenes/config/presets.hpp"
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
@@ -24,15 +25,17 @@ struct Device {
   const char* settings;
   double distance;
 };
-const Device structured_light{"preset: structured_light_0.65m_590mm, width: 344, height: 258", 0.65},
+const Device structured_light{"preset: structured_light_0.65m_590mm, width: 172, height: 128", 0.65},
     decoded_light{"preset: structured_light_0.65m_590mm, width: 172, height: 128, fidelity: decoded", 0.65},
-    time_of_flight{"preset: time_of_flight_1m_1500mm, width: 640, height: 576", 0.8},
+    time_of_flight{"preset: time_of_flight_1m_1500mm, width: 320, height: 288", 0.8},
     stereo{"preset: stereo_0.7m_1300mm, width: 320, height: 180, fidelity: analytic", 0.7},
-    decoded_stereo{"preset: stereo_0.7m_1300mm, width: 640, height: 360, fidelity: decoded", 0.7};
+    decoded_stereo{"preset: stereo_0.7m_1300mm, width: 640, height: 360, fidelity: decoded", 0.7},
+    ideal{"preset: ideal, width: 320, height: 240, fov: 0.7", 0.7};
 
-Request request_of(const Device& device, const std::string& more, const std::string& surface) {
+Request request_of(const Device& device, const std::string& more, const std::string& surface,
+                   const std::string& bin = "plastic_black") {
   return read_request_text("parts: [{model: bolt_hex.stl, unit: mm, surface: {material: " + surface +
-                               "}}]\nbin: {surface: {material: plastic_black}}\nsensors: [{" + device.settings + more +
+                               "}}]\nbin: {surface: {material: " + bin + "}}\nsensors: [{" + device.settings + more +
                                "}]",
                            std::getenv("BIN_SCENES_MODELS"));
 }
@@ -42,6 +45,7 @@ RangeImage seen(test::Stage& stage, const Request& request, double distance, con
   sensor.pose = Pose{Vec3(0, 0, distance), Quat(0, 1, 0, 0)};
   for (PartLine& line : stage.request.parts) line.surface = request.parts.front().surface;
   stage.request.bin.surface = request.bin.surface;
+  if (bin) stage.request.bin.kind = Bin::Kind::mesh;
   stage.scene.sensors = {resolved(sensor, stage.request.bin)};
   return SensorRig().render(stage.scene, {stage.request, stage.models, bin}).front();
 }
@@ -53,7 +57,8 @@ void add(Mesh& mesh, const Mesh& more) {
 }
 
 /// Rings, balls and blocks at random in a bin of 0.3 x 0.2 m.
-RangeImage heap_seen(const Device& device, const std::string& surface, const std::string& more = "") {
+RangeImage heap_seen(const Device& device, const std::string& surface, const std::string& more = "",
+                     const std::string& bin = "plastic_black") {
   Mesh tray = test::box_mesh({0.31, 0.21, 0.005}, {0, 0, -0.0025});
   for (const double side : {-1.0, 1.0}) {
     add(tray, test::box_mesh({0.005, 0.21, 0.1}, {side * 0.1525, 0, 0.05}));
@@ -68,7 +73,7 @@ RangeImage heap_seen(const Device& device, const std::string& surface, const std
     const Vec3 place(draw.uniform(-0.12, 0.12), draw.uniform(-0.07, 0.07), draw.uniform(0.015, 0.06));
     stage.place(shapes[i % 3], {place, draw.orientation()});
   }
-  return seen(stage, request_of(device, more, surface), device.distance, PartModel::from_mesh(tray, "tray"));
+  return seen(stage, request_of(device, more, surface, bin), device.distance, PartModel::from_mesh(tray, "tray"));
 }
 
 struct Exposure {
@@ -87,14 +92,17 @@ Exposure exposure_of_parts(const RangeImage& image) {
           static_cast<double>(std::count(levels.begin(), levels.end(), 255)) / static_cast<double>(levels.size())};
 }
 
+/// Parts of each material, in a dark bin and in a bright one.
 void expect_well_exposed(const Device& device) {
-  for (const char* const surface : {"zinc", "steel_brushed", "plastic_white", "rubber_black"}) {
-    const Exposure parts = exposure_of_parts(heap_seen(device, surface));
-    std::printf("%s, %s: median %d, saturated %.2f %%\n", device.settings, surface, parts.median,
-                100.0 * parts.saturated);
-    EXPECT_GE(parts.median, 50) << device.settings << ", " << surface;
-    EXPECT_LE(parts.median, 180) << device.settings << ", " << surface;
-    EXPECT_LT(parts.saturated, 0.01) << device.settings << ", " << surface;
+  for (const std::string& surface : materials()) {
+    for (const char* const bin : {"plastic_black", "plastic_white"}) {
+      const Exposure parts = exposure_of_parts(heap_seen(device, surface, "", bin));
+      const std::string name = device.settings + (", " + surface) + " in " + bin;
+      std::printf("%s: median %d, saturated %.2f %%\n", name.c_str(), parts.median, 100.0 * parts.saturated);
+      EXPECT_GE(parts.median, 80) << name;
+      EXPECT_LE(parts.median, 170) << name;
+      EXPECT_LT(parts.saturated, 0.01) << name;
+    }
   }
 }
 
@@ -112,6 +120,9 @@ TEST(GrayImage, StereoIsExposedForTheParts) {
 }
 TEST(GrayImage, DecodedStereoIsExposedForTheParts) {
   expect_well_exposed(decoded_stereo);
+}
+TEST(GrayImage, TheIdealSensorIsExposedForTheParts) {
+  expect_well_exposed(ideal);
 }
 
 /// Depth errs by noise, the light of a pixel does not.

@@ -33,7 +33,7 @@ struct RangeImage {
   std::vector<float> depth;                  ///< z along the optical axis (m); NaN where not valid
   std::vector<std::uint16_t> label;          ///< 0 for background and bin, part id + 1 otherwise
   std::vector<float> intensity;              ///< 0..1; for the model `ideal`, the cosine of the incidence angle
-  std::vector<std::uint8_t> gray;            ///< levels of the grey image (gray_image.hpp); empty: 255 * intensity
+  std::vector<std::uint8_t> gray;            ///< levels of the grey image (gray_image.hpp); empty: gray_of() makes them
   std::vector<float> snr;                    ///< signal / predicted standard deviation of its noise
   std::vector<std::uint8_t> validity;        ///< values of Validity
   Picture picture;                           ///< the picture of the model `image`

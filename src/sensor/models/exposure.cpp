@@ -7,46 +7,39 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace bin_scenes {
 
 namespace {
 
-/// The signal whose level this is.
-double signal_of(double level) {
-  return std::pow(level / 255.0, gray_gamma);
-}
-
-/// The scale from light to signals; 0 if nothing is lit.
+/// The scale from light to signals; 0 if the median is not lit.
 double scale_for(std::vector<float> light) {
-  double scale = std::numeric_limits<double>::infinity();
-  const auto limit = [&](double share, double level) {
-    const auto at = light.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(light.size() - 1));
-    std::nth_element(light.begin(), at, light.end());
-    if (*at > 0.0f) scale = std::min(scale, signal_of(level) / *at);
-  };
-  if (!light.empty()) {
-    limit(0.5, median_level);
-    limit(0.99, bright_level);
-  }
-  return std::isfinite(scale) ? scale : 0.0;
+  if (light.empty()) return 0.0;
+  const auto median = light.begin() + static_cast<std::ptrdiff_t>((light.size() - 1) / 2);
+  std::nth_element(light.begin(), median, light.end());
+  return *median > 0.0f ? std::pow(median_level / 255.0, gray_gamma) / *median : 0.0;
 }
 
-/// Levels of signals in equal steps from 0 to 1, so that a pixel needs no power.
+/// Levels of signals. Those of signals from 0 to 1 are read from a table, so that a pixel needs no power.
 class Levels {
  public:
   Levels() {
     for (std::size_t i = 0; i < table_.size(); ++i)
-      table_[i] =
-          static_cast<std::uint8_t>(std::lround(255.0 * std::pow(static_cast<double>(i) / last, 1.0 / gray_gamma)));
+      table_[i] = static_cast<float>(255.0 * std::pow(static_cast<double>(i) / last, 1.0 / gray_gamma));
   }
-  std::uint8_t of(float signal) const { return table_[static_cast<std::size_t>(last * signal + 0.5f)]; }
+  /// @param signal  reading of the exposure whose time is 2^-halvings
+  std::uint8_t of(float signal, int halvings) const {
+    float level = table_[static_cast<std::size_t>(last * signal + 0.5f)];
+    if (halvings > 0) level *= std::exp2(static_cast<float>(halvings / gray_gamma));
+    constexpr float knee = static_cast<float>(knee_level), rest = 255.0f - knee;
+    if (level > knee) level = 255.0f - rest * rest / (level - knee + rest);
+    return static_cast<std::uint8_t>(std::lround(level));
+  }
 
  private:
   static constexpr int last = 65535;
-  std::array<std::uint8_t, last + 1> table_;
+  std::array<float, last + 1> table_;
 };
 
 }  // namespace
@@ -68,10 +61,14 @@ std::vector<std::uint8_t> exposed_for_parts(std::vector<float> light, const std:
   const auto columns = static_cast<std::size_t>(width);
   in_parallel(light.size() / columns, [&](std::size_t row) {
     float* const signals = &light[row * columns];
-    for (std::size_t x = 0; x < columns; ++x) signals[x] *= static_cast<float>(scale);
+    std::vector<int> halvings(columns, 0);
+    for (std::size_t x = 0; x < columns; ++x) {
+      signals[x] *= static_cast<float>(scale);
+      if (signals[x] >= 1.0f) signals[x] = std::frexp(signals[x], &halvings[x]);
+    }
     Random draw = random.of_piece(row);
     imager.expose(signals, columns, draw);
-    for (std::size_t x = 0; x < columns; ++x) out[row * columns + x] = levels.of(signals[x]);
+    for (std::size_t x = 0; x < columns; ++x) out[row * columns + x] = levels.of(signals[x], halvings[x]);
   });
   return out;
 }

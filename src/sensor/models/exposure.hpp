@@ -10,13 +10,15 @@
 
 namespace bin_scenes {
 
-/// The exposure is the longest for which the median of the parts' pixels is at most `median_level`, and at most a
-/// hundredth of them is brighter than `bright_level`. Levels are 255 * signal^(1 / gray_gamma): highlights of metal are
-/// twenty times as bright as its median, which levels that are linear in the signal would leave nearly black.
-constexpr double median_level = 120.0, bright_level = 245.0, gray_gamma = 2.2;
+/// The median of the parts' pixels has the level `median_level`. Levels up to `knee_level` are 255 *
+/// signal^(1 / gray_gamma). A level l of this formula that is higher becomes 255 - c^2 / (l - knee_level + c), where c
+/// is 255 - knee_level: highlights of polished metal are 500 times as bright as its median, so that no exposure shows
+/// both without a knee.
+constexpr double median_level = 120.0, knee_level = 160.0, gray_gamma = 2.2;
 
-/// Returns the grey levels (0 to 255, row-major) of pixels that receive this light, with the imager's noise. If no part
-/// is in view, all lit pixels determine the exposure.
+/// Returns the grey levels (0 to 255, row-major) of pixels that receive this light, with the imager's noise. Pixels
+/// that exceed the full well are read from shorter exposures, each of which takes half the time of the one before. If
+/// less than half of the parts' pixels are lit, or no part is in view, all lit pixels determine the exposure.
 /// @param labels  labels of the parts, row-major; 0: no part
 /// @param random  random numbers of the noise
 std::vector<std::uint8_t> exposed_for_parts(std::vector<float> light, const std::vector<std::uint16_t>& labels,
