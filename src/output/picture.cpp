@@ -1,6 +1,7 @@
 #include "output/png.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "scene/palette.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +15,6 @@ using Colour = Eigen::Array3d;
 constexpr double outline = 0.35;       ///< brightness left on the line between two parts
 constexpr double hollow_color = 0.65;  ///< how much of its light a hollow may lose
 constexpr int neighbourhood = 10;      ///< pixels around one that decide whether it lies in a hollow
-
-/// Hues a golden angle apart: neighbours in id are far apart in colour, however many there are. Saturation and value
-/// take turns, so that equal hues still differ.
-Colour part_colour(std::size_t id) {
-  const double hue = 6.0 * std::fmod(0.08 + 0.6180339887498949 * static_cast<double>(id), 1.0);
-  const double saturation = 0.42 + 0.09 * static_cast<double>(id % 3);
-  const double value = 0.97 - 0.07 * static_cast<double>(id / 3 % 3);
-  const auto channel = [&](double shift) {
-    const double ramp = std::clamp(std::abs(std::fmod(hue + shift, 6.0) - 3.0) - 1.0, 0.0, 1.0);
-    return value * (1.0 - saturation * (1.0 - ramp));
-  };
-  return {channel(0.0), channel(4.0), channel(2.0)};
-}
 
 /// Mean depth around each pixel, by a summed-area table (Crow 1984); unseen pixels do not count.
 std::vector<double> mean_depth(const RangeImage& image) {
@@ -86,7 +74,7 @@ std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
         const auto& n = image.normal[i];
         const double lit = std::max(0.0, Vec3(n[0], n[1], n[2]).dot(light));
         const double below = std::clamp((image.depth[i] - mean[i]) / hollow, 0.0, 1.0);
-        colour = image.label[i] ? part_colour(image.label[i] - 1u) : bin;
+        colour = image.label[i] ? Colour(part_colour(image.label[i] - 1)) : bin;
         colour *= (0.30 + 0.75 * (std::isfinite(lit) ? lit : 0.0)) * (1.0 - hollow_color * below);
       }
       const bool right = x + 1 < width && image.label[i + 1] != image.label[i];

@@ -4,6 +4,7 @@
 #include "core/read_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -19,6 +20,13 @@ std::string escaped(const std::string& text) {
 
 std::string short_number(double value, int digits) {
   return formatted("%.*g", digits, value);
+}
+
+std::string css_colour(const Vec3& colour) {
+  const auto level = [](double value) {
+    return static_cast<unsigned>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+  };
+  return formatted("#%02x%02x%02x", level(colour.x()), level(colour.y()), level(colour.z()));
 }
 
 std::string base64(const Bytes& bytes) {

@@ -2,6 +2,7 @@
 /// `report` and `audit` use them.
 #pragma once
 
+#include "bin_scenes/core/types.hpp"
 #include "output/png.hpp"
 
 #include <nlohmann/json.hpp>
@@ -15,6 +16,9 @@ namespace bin_scenes {
 std::string escaped(const std::string& text);
 /// Returns a number with that many significant digits, as printf("%.*g") formats it.
 std::string short_number(double value, int digits);
+
+/// Returns a colour (red, green, blue; 0 to 1) as CSS writes it: "#rrggbb".
+std::string css_colour(const Vec3& colour);
 
 /// Returns bytes as base64 text.
 std::string base64(const Bytes& bytes);

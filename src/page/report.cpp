@@ -14,6 +14,7 @@
 #include "output/tiff.hpp"
 #include "page/grasp_view.hpp"
 #include "page/html.hpp"
+#include "scene/palette.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +130,7 @@ SortedJson scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std:
     SortedJson row = {place};
     for (int i = 0; i < 3; ++i) row.push_back(rounded(part.pose.position[i]));
     for (int i = 0; i < 4; ++i) row.push_back(rounded(part.pose.orientation.coeffs()[i]));
+    row.push_back(css_colour(part_colour(part.id)));
     view["parts"].push_back(row);
   }
   return view;

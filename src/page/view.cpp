@@ -9,6 +9,7 @@
 #include "page/view_cloud.hpp"
 #include "page/view_models.hpp"
 #include "page/view_trace.hpp"
+#include "scene/palette.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -64,6 +65,7 @@ void add_parts(Json& data, SceneFile& scene, const std::string& folder, const st
     }
     Json row = config::JsonWriter::object(part);
     row["mesh"] = place_of[part.line];
+    row["colour"] = css_colour(part_colour(part.id));
     data["parts"].push_back(row);
   }
 }

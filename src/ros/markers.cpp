@@ -2,6 +2,7 @@
 #include "markers.hpp"
 
 #include "core/formatted.hpp"
+#include "scene/palette.hpp"
 
 #include <algorithm>
 #include <array>
@@ -96,23 +97,22 @@ std_msgs::ColorRGBA load_color(double weights) {
   return color;
 }
 
-}  // namespace
-
-std_msgs::ColorRGBA part_color(int id) {
-  const double hue = 6.0 * std::fmod(0.61803398875 * (id + 1), 1.0);
-  const auto channel = [hue](double shift) {
-    const double k = std::fmod(shift + hue, 6.0);
-    return 0.9 - 0.5 * std::max(0.0, std::min({k, 4.0 - k, 1.0}));  // HSV to RGB, value 0.9, range 0.5
-  };
+std_msgs::ColorRGBA opaque(const Vec3& colour) {
   std_msgs::ColorRGBA color;
-  color.r = static_cast<float>(channel(5.0));
-  color.g = static_cast<float>(channel(3.0));
-  color.b = static_cast<float>(channel(1.0));
+  color.r = static_cast<float>(colour.x());
+  color.g = static_cast<float>(colour.y());
+  color.b = static_cast<float>(colour.z());
   color.a = 1.0f;
   return color;
 }
 
 std_msgs::ColorRGBA bin_color() {
+}  // namespace
+
+std_msgs::ColorRGBA part_color(int id) {
+  return opaque(part_colour(id));
+}
+
   std_msgs::ColorRGBA color;
   color.r = color.g = color.b = 0.6f;
   color.a = 0.5f;  // parts behind a wall stay visible

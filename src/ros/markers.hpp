@@ -32,7 +32,7 @@ visualization_msgs::MarkerArray contact_markers(const std::vector<SceneContact>&
 /// Returns the colour of a contact: green at rest, yellow sliding, magenta pushed apart, red impact.
 std_msgs::ColorRGBA action_color(ContactAction action);
 
-/// Returns the colour of a part. Hues are steps of the golden ratio, so that those of neighbouring ids differ strongly.
+/// Returns the colour of a part: that of all outputs (scene/palette.hpp).
 std_msgs::ColorRGBA part_color(int id);
 std_msgs::ColorRGBA bin_color();
 

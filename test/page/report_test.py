@@ -3,6 +3,7 @@
 
     report_test.py TOOL [--keep PNG]
 """
+import colorsys
 import json
 import os
 import pathlib
@@ -19,6 +20,12 @@ from data_set import DataSetTest, option
 
 KEEP = option("--keep")
 CHROMIUM = shutil.which("chromium")
+
+
+def colour_of_part(index):
+    """As src/scene/palette.hpp states it."""
+    rgb = colorsys.hsv_to_rgb((0.08 + 0.6180339887498949 * index) % 1, 0.42 + 0.09 * (index % 3), 0.97 - 0.07 * (index // 3 % 3))
+    return "#" + "".join("%02x" % round(255 * channel) for channel in rgb)
 
 
 class Report(DataSetTest):
@@ -41,6 +48,9 @@ class Report(DataSetTest):
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', page), [])
         self.assertIn("not at rest", page)
         self.assertIn("parts[0].friction", page)
+        data = json.loads(re.search(r'type="application/json">(.*?)</script>', page, re.S)[1].replace("<\\/", "</"))
+        for index, part in enumerate(data["scene3d"]["parts"]):
+            self.assertEqual(part[-1], colour_of_part(index))
 
     def test_a_model_that_is_cut_off_is_named(self):
         self.make(self.plan(scenes=1, outputs="bop"), "out")

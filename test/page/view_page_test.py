@@ -190,7 +190,7 @@ class View(unittest.TestCase):
             if len(colours) < 30:
                 continue
             hues = numpy.array([colorsys.rgb_to_hsv(*(c / 255))[0] for c in colours])
-            wrong = numpy.abs((hues - (label - 1) * 0.618 + 0.5) % 1 - 0.5) > 0.03
+            wrong = numpy.abs((hues - 0.08 - (label - 1) * 0.618034 + 0.5) % 1 - 0.5) > 0.03
             self.assertLess(wrong.mean(), 0.02, "part %d is not where it has to be" % (label - 1))
         self.assertGreater((inside > 0).mean(), 0.05)
         outside = picture[(labels == 0) & (numpy.arange(480) > 0)[:, None]]
