@@ -47,6 +47,30 @@ void visit(Visitor& v, SceneBin& scene) {
   visit_only(v, {"unit", "pose", "floor", "none", "friction", "restitution"}, bin);
 }
 
+struct SceneSurface {
+  Surface& surface;
+};
+
+/// Without the name of the material, whose values are written.
+template <class Visitor>
+void visit(Visitor& v, SceneSurface& scene) {
+  visit_only(v,
+             {"albedo", "gloss", "roughness", "refraction", "extinction", "colour", "anisotropy", "along", "texture"},
+             scene.surface);
+}
+
+struct SceneTable {
+  Table& table;
+};
+
+template <class Visitor>
+void visit(Visitor& v, SceneTable& scene) {
+  v.field({"height", "m", "Height of the table, as z in the bin frame."}, scene.table.height);
+  SceneSurface surface{scene.table.surface};
+  v.section({"surface", "", "Optical properties of the table."}, surface);
+  visit_only(v, {"mottle", "patch"}, scene.table);
+}
+
 /// A projector or laser as its sensor has placed it.
 template <class Device>
 struct SceneDevice {
@@ -119,6 +143,12 @@ void visit(Visitor& v, SceneFile& scene) {
              "The container of the parts. The origin of the bin frame is the centre of the floor's top surface, and z "
              "points up."},
             bin);
+  SceneTable table{scene.table};
+  v.section({"table", "",
+             "The table below the bin: an endless plane that the sensors see and the simulation does not contain. It is "
+             "left out if there is no table.",
+             anything, scene.table.height.has_value()},
+            table);
   v.field({"gravity", "m/s2", "Acceleration of gravity in the bin frame."}, scene.gravity);
   v.field({"request_sha256", "", "SHA-256 of the request with all its defaults and of its model files."},
           scene.request_sha256);

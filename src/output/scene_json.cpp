@@ -56,6 +56,7 @@ SceneFile scene_file(const Scene& scene, const LoadedRequest& loaded, const std:
   file.seed = scene.seed;
   file.index = scene.index;
   file.bin = request.bin;
+  file.table = request.table;
   file.gravity = request.gravity;
   file.request_sha256 = request.text_sha256;
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {

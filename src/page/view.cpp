@@ -87,6 +87,7 @@ Json view_data(SceneFile scene, const std::string& folder, const ViewSources& so
                {"index", scene.index},
                {"bin", config::JsonWriter::object(bin)},
                {"report", config::JsonWriter::object(scene.report)}};
+  if (scene.table.height) data["table"] = {{"height", *scene.table.height}, {"colour", css_colour(table_colour)}};
   for (const char* list : {"meshes", "parts", "sensors", "clouds"}) data[list] = Json::array();
   add_parts(data, scene, folder, sources.models);
   data["trace"] = sources.trace.empty() ? Json() : view_trace(sources.trace, scene);

@@ -16,7 +16,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double endless_floor = 4.0;  // m: edge of what is shown of it
+constexpr double endless_plane = 4.0;     // m: edge of what is shown of a floor or table
+constexpr double plane_thickness = 1e-3;  // m, below its upper side; a box marker of no thickness is refused by RViz
 
 Marker marker(const std::string& name, int id, const Pose& pose, const Frames& frames, const ros::Time& stamp) {
   Marker m;
@@ -64,7 +65,7 @@ struct Box {
 /// Floor and four walls round the inner space of the bin; the long walls cover the corners.
 std::array<Box, 5> walls(const Bin& bin) {
   const Vec3 in = bin.inner_size;
-  const double t = std::max(bin.wall_thickness, 1e-3);  // a box marker of no thickness is refused by RViz
+  const double t = std::max(bin.wall_thickness, plane_thickness);
   const double x = 0.5 * (in.x() + t), y = 0.5 * (in.y() + t), z = 0.5 * in.z();
   return {Box{{0, 0, -0.5 * t}, {in.x() + 2 * t, in.y() + 2 * t, t}}, Box{{-x, 0, z}, {t, in.y(), in.z()}},
           Box{{x, 0, z}, {t, in.y(), in.z()}}, Box{{0, -y, z}, {in.x() + 2 * t, t, in.z()}},
@@ -106,13 +107,13 @@ std_msgs::ColorRGBA opaque(const Vec3& colour) {
   return color;
 }
 
-std_msgs::ColorRGBA bin_color() {
 }  // namespace
 
 std_msgs::ColorRGBA part_color(int id) {
   return opaque(part_colour(id));
 }
 
+std_msgs::ColorRGBA bin_color() {
   std_msgs::ColorRGBA color;
   color.r = color.g = color.b = 0.6f;
   color.a = 0.5f;  // parts behind a wall stay visible
@@ -215,21 +216,24 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRe
   array.markers.push_back(clear);
 
   const Bin& bin = loaded.request.bin;
-  const auto add_box = [&](const Box& box) {
-    Marker m = marker("bin", static_cast<int>(array.markers.size()), {box.center, Quat::Identity()}, frames, stamp);
+  const auto add_box = [&](const char* name, const Box& box, const std_msgs::ColorRGBA& color) {
+    Marker m = marker(name, static_cast<int>(array.markers.size()), {box.center, Quat::Identity()}, frames, stamp);
     m.type = Marker::CUBE;
     m.scale.x = box.size.x();
     m.scale.y = box.size.y();
     m.scale.z = box.size.z();
-    m.color = bin_color();
+    m.color = color;
     array.markers.push_back(m);
+  };
+  const auto add_plane = [&](const char* name, double height, const std_msgs::ColorRGBA& color) {
+    add_box(name, {{0, 0, height - 0.5 * plane_thickness}, {endless_plane, endless_plane, plane_thickness}}, color);
   };
   switch (bin.kind) {
     case Bin::Kind::box:
-      for (const Box& box : walls(bin)) add_box(box);
+      for (const Box& box : walls(bin)) add_box("bin", box, bin_color());
       break;
     case Bin::Kind::floor:
-      add_box({{0, 0, -0.5e-3}, {endless_floor, endless_floor, 1e-3}});
+      add_plane("bin", 0.0, bin_color());
       break;
     case Bin::Kind::mesh:
       if (loaded.bin_model) {
@@ -242,6 +246,8 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRe
     case Bin::Kind::none:
       break;
   }
+
+  if (loaded.request.table.height) add_plane("table", *loaded.request.table.height, opaque(table_colour));
 
   for (const ScenePart& part : scene.parts) {
     if (!part.pose.finite()) continue;

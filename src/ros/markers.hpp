@@ -11,8 +11,9 @@
 namespace bin_scenes {
 
 /// Returns a marker that deletes all older ones, then markers of the parts (namespace "parts", marker id = part id; the
-/// mesh resource is the model file, scaled to metres) and of the bin (namespace "bin": boxes for its walls and floor,
-/// or its mesh). Each part has its own colour.
+/// mesh resource is the model file, scaled to metres), of the bin (namespace "bin": boxes for its walls and floor, or
+/// its mesh), and of the table (namespace "table": a box with the edge lengths 4 m, 4 m and 1 mm, whose upper side is
+/// that of the table). Each part has its own colour.
 visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,
                                               const ros::Time& stamp);
 

@@ -103,6 +103,23 @@ class Distractors(DataSetTest):
         without = self.run_tool("audit", "set/bop", "--bin", "0.24,0.2,0.15", "--json", code=None)
         self.assertNotEqual(json.loads(without.stdout)["exceeded"], [], "their occlusion matters in this heap")
 
+    def test_a_scene_file_suffices_to_make_the_surroundings_again(self):
+        self.make(self.plan_of(), "set")
+        for index in (0, 1):
+            scene = self.scene("set", index)
+            bin, table = scene["bin"], scene["table"]
+            self.assertEqual((table["height"], table["surface"]["albedo"], table["mottle"]), (-0.01, 0.3, 0.3))
+            camera = scene["sensors"][0]
+            lines = [{"model": p["model"], "unit": scene["models"][p["line"]].get("unit", "m"), "count": 1, "fixed": True,
+                      "poses": [p["pose"]["position"] + p["pose"]["orientation_xyzw"]]} for p in scene["parts"] if p["pose"]]
+            request = {"seed": 1, "bin": {key: bin[key] for key in ("inner_size", "wall_thickness")}, "table": table,
+                       "parts": lines, "sensors": [{"name": "camera", "width": camera["width"], "height": camera["height"],
+                                                    "k": camera["K"], "pose": [0, 0, 0.6, 1, 0, 0, 0]}]}
+            (self.folder / "again.yaml").write_text(json.dumps(request))
+            self.run_tool("generate", "again.yaml", "--out", "again%d" % index, "--formats", "json,png")
+            again = np.asarray(Image.open(self.folder / ("again%d/scene_000000/camera_depth.png" % index))).astype(int)
+            np.testing.assert_array_equal(again, self.image("set", index, "camera_depth.png"))
+
     def test_amounts_are_of_the_others(self):
         self.make(self.plan_of(more="amount: {parts: 3}"), "set")
         lines = [p["line"] for p in self.scene("set", 0)["parts"]]

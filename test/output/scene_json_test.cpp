@@ -43,6 +43,7 @@ TEST_F(SceneJson, HasTheNamesOthersRelyOn) {
   EXPECT_EQ(json.at("format"), "bin_scenes/1");
   EXPECT_EQ(json.at("request_sha256"), "abc");
   EXPECT_EQ(json.at("bin").at("inner_size").size(), 3u);
+  EXPECT_FALSE(json.contains("table")) << "there is none";
   const auto& sensor = json.at("sensors").at(0);
   EXPECT_EQ(sensor.at("frame"), "left_optical_frame");
   EXPECT_EQ(sensor.at("K").size(), 9u);
@@ -122,6 +123,10 @@ TEST_F(SceneJson, TheStructHoldsTheWholeFile) {
   r.parts.resize(1);
   r.parts[0].model = "bolt.stl";
   r.parts[0].scale = 2.0;
+  r.table.height = -0.02;
+  r.table.surface.albedo = 0.3;
+  r.table.surface.texture.oil = 0.1;
+  r.table.mottle = 0.25;
   LoadedRequest loaded{r};
   const std::string written = scene_json(scene, loaded);
   write_text(path("scene.json"), written);
@@ -130,6 +135,10 @@ TEST_F(SceneJson, TheStructHoldsTheWholeFile) {
   EXPECT_EQ(back.bin.kind, Bin::Kind::mesh);
   EXPECT_EQ(back.sensors.at(1).laser.pose->position, Vec3(0.1, 0.0, 0.9));
   EXPECT_FALSE(back.sensors[0].truth.has_value());
+  EXPECT_EQ(back.table.height, -0.02);
+  EXPECT_EQ(back.table.surface.albedo, 0.3);
+  EXPECT_EQ(back.table.surface.texture.oil, 0.1);
+  EXPECT_EQ(back.table.mottle, 0.25);
   EXPECT_TRUE(back.report.drift.measured);
   EXPECT_EQ(back.report.flags.at(0).code, "mesh_repaired");
 }

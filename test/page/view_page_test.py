@@ -6,6 +6,7 @@ pixel. What needs a browser is skipped where there is no Chromium.
 """
 import base64
 import colorsys
+import html
 import json
 import os
 import pathlib
@@ -37,6 +38,32 @@ sensors:
 """
 SENSORS = """  - {name: camera, model: structured_light, width: 160, height: 120, fov: 0.6, projector: {baseline: 0.15, fov: 0.8}}
   - {name: side, width: 64, height: 48, pose: [0.3, 0, 0.5, 0.9272, 0, -0.3746, 0]}"""
+TABLE = "table: {height: -0.005, surface: {albedo: 0.3}}\n"
+
+# Lists texts of the panel that lie beyond their place or over each other. Of options, which a browser draws itself, the
+# element that contains them counts.
+LAYOUT = """<script>{
+const panel = document.getElementById("panel"), view = document.getElementById("view").getBoundingClientRect(), texts = [], faults = [];
+const place = panel.getBoundingClientRect(), walker = document.createTreeWalker(panel, NodeFilter.SHOW_TEXT);
+while (walker.nextNode()) {
+  const node = walker.currentNode, range = document.createRange();
+  range.selectNodeContents(node);
+  if (node.parentElement.tagName !== "OPTION" && node.data.trim())
+    for (const box of range.getClientRects()) if (box.width > 0) texts.push([node.data.trim(), box]);
+}
+for (const control of panel.querySelectorAll("select, input, .bar, .swatch"))
+  if (control.getClientRects().length) texts.push([control.id || control.className, control.getBoundingClientRect()]);
+texts.forEach(([text, box], i) => {
+  if (box.left < place.left || box.right > place.left + panel.clientWidth + panel.clientLeft) faults.push(text + " is cut off");
+  for (const [other, its] of texts.slice(0, i)) {
+    const wide = Math.min(box.right, its.right) - Math.max(box.left, its.left), tall = Math.min(box.bottom, its.bottom) - Math.max(box.top, its.top);
+    if (wide > 1 && tall > 4) faults.push(text + " lies over " + other);
+  }
+});
+if (panel.scrollWidth > panel.clientWidth) faults.push("the panel is too wide");
+if (place.right > innerWidth || document.documentElement.scrollWidth > innerWidth) faults.push("the page is too wide");
+document.body.dataset.layout = JSON.stringify({faults, texts: texts.length, view: [view.width, view.height]});
+}</script>"""
 
 
 class View(unittest.TestCase):
@@ -54,8 +81,9 @@ class View(unittest.TestCase):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
-    def make(self, formats, sensors=SENSORS):
+    def make(self, formats, sensors=SENSORS, more=""):
         text = REQUEST % sensors if sensors else REQUEST.partition("sensors")[0]
+        text += more
         (self.folder / "request.yaml").write_text(text.replace("model: b", "model: models/b"))
         self.run_tool("generate", "request.yaml", "--out", "out", "--formats", formats, "--overwrite")
 
@@ -118,14 +146,22 @@ class View(unittest.TestCase):
             self.assertEqual(row["approach"], sum(grasp["reason"].endswith(": approach") for grasp in of_gripper))
         if CHROMIUM:
             self.assertIn('data-grasps="%d"' % len(data["grasps"]), self.browse("--dump-dom"))
-            self.assertEqual(self.too_wide(), "0")
+            for width in (1400, 700):
+                self.check_layout(width)
 
-    def too_wide(self):
-        """Pixels by which the panel of a page of 1400 px is wider than its place."""
+    def check_layout(self, width, at=""):
+        """No text of the panel is cut off or lies over another text, and the view has a place beside or above it."""
         page = self.scene / "view.html"
-        page.write_text(page.read_text().replace("</body>", "<script>{const panel = document.getElementById('panel'); "
-                                                 "panel.dataset.wide = panel.scrollWidth - panel.clientWidth;}</script></body>"))
-        return re.search(r'data-wide="(-?\d+)"', self.browse("--window-size=1400,900", "--dump-dom"))[1]
+        whole = page.read_text()
+        page.write_text(whole.replace("</body>", LAYOUT + "</body>"))
+        dom = self.browse("--window-size=%d,900" % width, "--dump-dom", at=at)
+        page.write_text(whole)
+        layout = json.loads(html.unescape(re.search(r'data-layout="([^"]*)"', dom)[1]))
+        self.assertEqual(layout["faults"], [], "%d px" % width)
+        self.assertGreater(layout["texts"], 20)
+        self.assertGreaterEqual(min(layout["view"]), 300, "the view is too small at %d px" % width)
+        if KEEP:
+            self.browse("--window-size=%d,900" % width, "--screenshot=%s" % KEEP.replace(".png", "_%d.png" % width), at=at)
 
     def cloud(self, page):
         cloud = self.data(page)["clouds"][0]
@@ -198,6 +234,56 @@ class View(unittest.TestCase):
         self.assertLess((saturation > 0.25).mean(), 0.02, "colours of parts where there are none")
         if KEEP:
             self.browse("--window-size=1280,860", "--screenshot=%s" % KEEP, at="#colour=error")
+
+    def test_parts_have_the_colours_of_the_picture(self):
+        self.make("json,png", sensors="  - {name: camera, width: 160, height: 120, fov: 0.6}")
+        labels, picture = self.image("camera_truth_labels.png"), self.image("camera.png")
+        inside = labels.copy()
+        for axis in (0, 1):  # without outlines
+            for shift in (1, -1):
+                inside[numpy.roll(labels, shift, axis) != labels] = 0
+        compared = 0
+        for part in self.data(self.view())["parts"]:
+            shown = picture[inside == part["id"] + 1]
+            if len(shown) < 20:
+                continue
+            compared += 1
+            colour = numpy.array([int(part["colour"][i:i + 2], 16) for i in (1, 3, 5)])
+            brightest = shown[shown.max(1).argmax()]  # the picture shades by brightness alone, in whole levels
+            self.assertLess(numpy.abs(brightest / brightest.max() - colour / colour.max()).max(), 2 / brightest.max(), part["id"])
+        self.assertGreater(compared, 5)
+
+    def test_a_table_is_shown_at_its_height(self):
+        self.make("json", sensors="  - {name: camera, width: 64, height: 48, pose: [0, 0, 1, 1, 0, 0, 0], fov: 1.0}", more=TABLE)
+        data = self.data(self.view())
+        table = json.loads((self.scene / "scene.json").read_text())["table"]
+        self.assertEqual((table["height"], table["surface"]["albedo"]), (-0.005, 0.3))
+        self.assertEqual(data["table"]["height"], -0.005)
+        if not CHROMIUM:
+            return
+        plain = "#through=camera&colour=none&frusta=0&grasps=0&bin=0&parts=0"
+        hidden, shown = self.picture(plain + "&table=0"), self.picture(plain)
+        self.assertEqual(len(numpy.unique(hidden.reshape(-1, 3), axis=0)), 1)
+        drawn = (shown != hidden).any(2)
+        # A square of 2 * 1.5 * 0.24 m, seen from 1.005 m; 480 rows show 2 * tan(0.5) * 48 / 64 at a distance of 1.
+        rows = 0.72 / 1.005 * 480 / (2 * numpy.tan(0.5) * 48 / 64)
+        self.assertAlmostEqual(drawn.any(1).sum() / rows, 1.0, delta=0.02)
+        self.assertGreater(drawn[240, 320 - int(rows / 2) + 5:320 + int(rows / 2) - 5].mean(), 0.99)
+        self.make("json", sensors="", more="")
+        self.assertNotIn("table", self.data(self.view()))
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_nothing_is_cut_off_in_narrow_and_wide_windows(self):
+        long_name = "camera_with_a_name_that_is_longer_than_its_panel_is_wide"
+        sensors = SENSORS.replace("name: side", "name: " + long_name) + "\ngrippers: [cup_10mm]"
+        text = (REQUEST % sensors).replace("model: b", "model: models/b").replace("bullet", "sphere, sphere: {device: cpu}")
+        (self.folder / "request.yaml").write_text(text + TABLE)
+        self.run_tool("generate", "request.yaml", "--out", "out", "--formats", "json,png,ply,grasps", "--trace", "heap.jsonl",
+                      "--trace-rate", "5")
+        self.view("--trace", "heap.jsonl")
+        for width in (1400, 700):
+            for colouring in ("depth", "validity"):
+                self.check_layout(width, "#colour=" + colouring)
 
     @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
     def test_a_browser_shows_the_cloud_in_each_colouring(self):

@@ -2,6 +2,7 @@
 
 #include "box_mesh.hpp"
 #include "dae.hpp"
+#include "scene/palette.hpp"
 
 #ifdef MARKERS_TEST_CAD
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -113,6 +114,34 @@ TEST_F(Markers, ABinOfAMeshIsDrawnWhereAndAsLargeAsItIs) {
     EXPECT_EQ(markers[1].pose.position.z, 0.3);
     const double size = model->mesh().bounds().size().x();
     EXPECT_NEAR(20 * c.drawn * markers[1].scale.x, size, 1e-6 * size);
+  }
+}
+
+TEST_F(Markers, TheTableIsABoxWhoseUpperSideIsThatOfTheTable) {
+  const auto markers_of = [](const Request& request) {
+    std::vector<visualization_msgs::Marker> tables;
+    for (const auto& m : scene_markers(Scene(), {request, {}}, Frames(), stamp).markers)
+      if (m.ns == "table") tables.push_back(m);
+    return tables;
+  };
+  Request request;
+  EXPECT_TRUE(markers_of(request).empty());
+  request.table.height = -0.05;
+  const auto tables = markers_of(request);
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables[0].type, visualization_msgs::Marker::CUBE);
+  EXPECT_EQ(tables[0].header.frame_id, Frames().bin);
+  EXPECT_NEAR(tables[0].pose.position.z + 0.5 * tables[0].scale.z, -0.05, 1e-12);
+  EXPECT_GT(tables[0].scale.x, request.bin.inner_size.x());
+  EXPECT_EQ(tables[0].color.a, 1.0f);
+}
+
+TEST(PartColor, IsThatOfAllOutputs) {
+  for (int id = 0; id < 50; ++id) {
+    const Vec3 colour = part_colour(id);
+    EXPECT_EQ(part_color(id).r, static_cast<float>(colour.x()));
+    EXPECT_EQ(part_color(id).g, static_cast<float>(colour.y()));
+    EXPECT_EQ(part_color(id).b, static_cast<float>(colour.z()));
   }
 }
 

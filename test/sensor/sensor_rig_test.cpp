@@ -361,5 +361,34 @@ TEST(SensorRig, ATableIsMeasuredLikeAPlane) {
   }
 }
 
+/// The same table in the profiles of a laser that is moved across the bin.
+TEST(SensorRig, ALaserLineMeasuresTheTableLikeAPlane) {
+  Stage stage;
+  stage.request.bin.kind = Bin::Kind::box;
+  stage.request.bin.inner_size = Vec3(0.2, 0.2, 0.1);
+  stage.request.table.height = -0.1;
+  stage.request.table.mottle = 0.3;
+  Sensor& sensor = stage.request.sensors[0];
+  sensor.model = "laser_line";
+  sensor.noise = false;
+  sensor.laser.baseline = 0.2;
+  sensor.scan.step = 0.01, sensor.scan.profiles = 100;
+  sensor.pose = Pose{Vec3(0.0, 0.0, 0.9), turned(M_PI, Vec3::UnitX())};
+  const RangeImage image = stage.render();
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < image.depth.size(); ++i) {
+    if (std::isnan(image.depth[i])) continue;
+    const auto& p = image.points[i];
+    const Vec3 point = *sensor.pose * Vec3(p[0], p[1], p[2]);
+    if (point.head<2>().cwiseAbs().maxCoeff() < 0.25) continue;
+    ++seen;
+    ASSERT_NEAR(point.z(), -0.1, 1e-3) << i;
+    ASSERT_EQ(image.label[i], 0);
+    const auto& n = image.normal[i];
+    ASSERT_NEAR((sensor.pose->orientation * Vec3(n[0], n[1], n[2])).z(), 1.0, 1e-6);
+  }
+  EXPECT_GT(seen, image.depth.size() / 3);
+}
+
 }  // namespace
 }  // namespace bin_scenes

@@ -35,6 +35,7 @@ struct SceneFile {
   std::uint64_t seed = 0;
   std::size_t index = 0;
   Bin bin;  ///< without surface and motion
+  Table table;
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   std::string request_sha256;
   std::vector<SceneSensor> sensors;  ///< of projector and laser, only the values that the file contains
