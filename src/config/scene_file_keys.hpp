@@ -144,11 +144,12 @@ void visit(Visitor& v, SceneFile& scene) {
              "points up."},
             bin);
   SceneTable table{scene.table};
-  v.section({"table", "",
-             "The table below the bin: an endless plane that the sensors see and the simulation does not contain. It is "
-             "left out if there is no table.",
-             anything, scene.table.height.has_value()},
-            table);
+  v.section(
+      {"table", "",
+       "The table below the bin: an endless plane that the sensors see and the simulation does not contain. It is "
+       "left out if there is no table.",
+       anything, scene.table.height.has_value()},
+      table);
   v.field({"gravity", "m/s2", "Acceleration of gravity in the bin frame."}, scene.gravity);
   v.field({"request_sha256", "", "SHA-256 of the request with all its defaults and of its model files."},
           scene.request_sha256);

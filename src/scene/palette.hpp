@@ -7,8 +7,8 @@
 namespace bin_scenes {
 
 /// Returns the colour of a part (red, green, blue; 0 to 1). Hues are a golden angle apart, so that parts with
-/// neighbouring ids differ strongly. Saturation (0.42 to 0.60) and value (0.83 to 0.97) change, so that equal hues still
-/// differ.
+/// neighbouring ids differ strongly. Saturation (0.42 to 0.60) and value (0.83 to 0.97) change, so that equal hues
+/// still differ.
 Vec3 part_colour(int id);
 
 /// The colour of the table.
