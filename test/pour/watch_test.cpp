@@ -167,8 +167,8 @@ TEST(DeviceWatch, ReadsThirtyTwoBytesOfAWorld) {
     solver->advance(ids, slice);
     for (DeviceWatch& watch : watches) watch.take();
     const std::uint64_t read = bytes() - before;
-    // Steps of fast parts are cut: then a slice has more than the 16 behind which the host looks for worlds without
-    // room. And while lists grow, it reads what they need.
+    // Steps of fast parts are cut, and the host looks again at worlds that need more of them than it expected. And while
+    // lists grow, it reads what they need.
     if (k <= 50) continue;
     EXPECT_EQ(read, 3u * 32u + (k == slices ? states : 0u)) << k;
   }

@@ -23,7 +23,9 @@ namespace {
 
 using namespace sphere_gl;
 
-constexpr std::uint64_t steps_per_observation = 16;  ///< a world without room waits no longer than these for the host
+/// A world without room waits no longer than these for the host. A slice of 7 steps seldom needs more, as parts that
+/// fall into a bin cut a step into 4.
+constexpr std::uint64_t steps_per_observation = 32;
 constexpr int most_unread = 64;  ///< stretches of steps: then counters are taken before they overflow
 
 class GlSphereSolver final : public Solver, private WorldWatch {
@@ -135,7 +137,6 @@ class GlSphereSolver final : public Solver, private WorldWatch {
       start(flight, 1, std::exchange(flight.rest, 0.0f), true);
       go_on(flight);
     }
-    take(flight);
     spare_.push_back(std::move(flight.back));
     batch_.timer().collect(profile_);
   }
@@ -258,14 +259,15 @@ class GlSphereSolver final : public Solver, private WorldWatch {
   /// @param ends  no steps follow these
   void start(Flight& flight, std::uint64_t steps, float share, bool ends) {
     flight.share = share;
-    flight.slots.clear();
+    flight.running = flight.ids;
     std::uint64_t most = 0;
     std::vector<std::pair<Batch::Slot, gpu::SphereAsk>> asks;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
       upload_changes(batch_, r);
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
-      most = std::max(most, own);
+      r.left = own * r.cuts;
+      most = std::max(most, r.left);
       r.steps += own;
       asks.emplace_back(r.slot, r.ask);
       asks.back().second.steps = static_cast<gpu::uint>(own);
@@ -273,11 +275,10 @@ class GlSphereSolver final : public Solver, private WorldWatch {
       if (std::exchange(r.counted, false)) asks.back().second.flags |= SPHERE_COUNTED;
       r.ask.flags = 0;  // what begins anew has begun
       if (ends) r.ask.observation = 0;
-      flight.slots.push_back(r.slot);
     }
     upload_progress(flight);
     batch_.upload_asks(std::move(asks));
-    batch_.run(flight.slots, flight.share);
+    run(flight);
     batch_.begin_watch();
     issue(flight, most);
   }
@@ -285,20 +286,27 @@ class GlSphereSolver final : public Solver, private WorldWatch {
   /// Until no steps are left.
   void go_on(Flight& flight) {
     while (const std::uint64_t left = observe(flight)) {
-      batch_.run(flight.slots, flight.share);
+      run(flight);
       issue(flight, left);
     }
   }
 
+  void run(Flight& flight) {
+    flight.slots.clear();
+    for (const WorldId id : flight.running) flight.slots.push_back(world(id).slot);
+    batch_.run(flight.slots, flight.share);
+  }
+
   void issue(Flight& flight, std::uint64_t left) {
-    for (std::uint64_t k = 0; k < std::min(left, steps_per_observation); ++k) batch_.step();
+    const std::uint64_t steps = std::min(left, steps_per_observation);
+    for (std::uint64_t k = 0; k < steps; ++k) batch_.step();
     batch_.watch_rest();
     batch_.audit_energy();
     std::vector<Batch::Slot> read;
     flight.read.clear();
-    for (const WorldId id : flight.ids) {
+    for (const WorldId id : flight.running) {
       const Resident& r = world(id);
-      const bool last = left <= steps_per_observation && flight.rest == 0.0f;
+      const bool last = r.left <= steps && flight.rest == 0.0f;
       if (!last || (r.watched && !r.wants_states && r.unread < most_unread)) continue;
       flight.read.push_back(id);
       read.push_back(r.slot);
@@ -306,26 +314,48 @@ class GlSphereSolver final : public Solver, private WorldWatch {
     batch_.request(flight.slots, read, *flight.back);
   }
 
-  /// Waits for what the steps left behind, makes room where it was asked for, and returns how many steps are left.
-  std::uint64_t observe(const Flight& flight) {
+  /// Waits for what the steps left behind, takes what worlds without further steps have shown, makes room where it was
+  /// asked for, and returns how many dispatches the other worlds need.
+  std::uint64_t observe(Flight& flight) {
     const auto* seen = static_cast<const gpu::SphereSeen*>(flight.back->wait());
-    std::uint64_t left = 0;
+    profile_.count("observations");
+    std::uint64_t most = 0;
     bool blocked = false;
-    for (std::size_t i = 0; i < flight.ids.size(); ++i) {
-      left = std::max<std::uint64_t>(left, seen[i].left & ~SPHERE_BLOCKED);
-      blocked = blocked || (seen[i].left & SPHERE_BLOCKED) != 0;
+    std::vector<WorldId> running;
+    for (const WorldId id : flight.running) {
+      Resident& r = world(id);
+      r.left = seen->left & 0xffffffu;
+      r.cuts = std::max(1u, seen->left >> 24 & 0x7fu);
+      blocked = blocked || (seen->left & SPHERE_BLOCKED) != 0;
+      most = std::max(most, r.left);
+      if (r.left > 0) running.push_back(id);
+      if (r.left == 0 && flight.rest == 0.0f) take(r, *seen);
+      ++seen;
     }
+    std::vector<Resident*> read;
+    for (const WorldId id : flight.read) read.push_back(&world(id));
+    read_residents(seen, read, profile_);
+    for (Resident* r : read) r->seen.states = r->left == 0;
+    flight.running = std::move(running);
     if (blocked) make_room(flight);
-    return left;
+    return most;
+  }
+
+  static void take(Resident& r, const gpu::SphereSeen& seen) {
+    r.seen = seen_of(seen);
+    r.known = false;
+    ++r.unread;
   }
 
   /// Of worlds some of which wait for room.
   void make_room(const Flight& flight) {
+    std::vector<Batch::Slot> slots;
+    for (const WorldId id : flight.running) slots.push_back(world(id).slot);
     gl::ReadBack back;
-    batch_.request_progress(flight.slots, back);
+    batch_.request_progress(slots, back);
     const auto* now = static_cast<const gpu::SphereProgress*>(back.wait());
     gpu::uint samples = 0, candidates = 0;
-    for (const WorldId id : flight.ids) {
+    for (const WorldId id : flight.running) {
       Resident& r = world(id);
       r.progress = *now++;
       take_counters(r.progress, profile_);
@@ -338,26 +368,11 @@ class GlSphereSolver final : public Solver, private WorldWatch {
 
   void upload_progress(const Flight& flight) {
     std::vector<std::pair<Batch::Slot, gpu::SphereProgress>> worlds;
-    for (const WorldId id : flight.ids) {
+    for (const WorldId id : flight.running) {
       Resident& r = world(id);
       if (std::exchange(r.progress_changed, false)) worlds.emplace_back(r.slot, r.progress);
     }
     batch_.upload_progress(std::move(worlds));
-  }
-
-  /// What was seen, and where states were asked for, all of the world.
-  void take(const Flight& flight) {
-    const auto* seen = static_cast<const gpu::SphereSeen*>(flight.back->wait());
-    for (const WorldId id : flight.ids) {
-      Resident& r = world(id);
-      r.seen = seen_of(*seen++);
-      r.known = false;
-      ++r.unread;
-    }
-    std::vector<Resident*> read;
-    for (const WorldId id : flight.read) read.push_back(&world(id));
-    read_residents(seen, read, profile_);
-    for (Resident* r : read) r->seen.states = true;
   }
 
   std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it

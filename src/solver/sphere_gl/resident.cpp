@@ -109,17 +109,19 @@ void read_residents(const void* from, const std::vector<Resident*>& residents, P
   const auto* worst = reinterpret_cast<const gpu::SphereWorst*>(progress + count);
   const auto* audit = reinterpret_cast<const gpu::SphereAudit*>(worst + count);
   const auto* state = reinterpret_cast<const gpu::SphereState*>(audit + count);
-  for (Resident* r : residents) {
-    r->progress = *progress++;
+  for (std::size_t k = 0; k < count; state += residents[k]->world.bodies.size(), ++k) {
+    Resident* const r = residents[k];
+    if (r->left > 0) continue;
+    r->progress = progress[k];
     take_counters(r->progress, profile);
     r->counted = true;
-    r->worst = *worst++;
-    r->audit = *audit++;
-    for (std::size_t i = 0; i < r->world.bodies.size(); ++i, ++state) {
+    r->worst = worst[k];
+    r->audit = audit[k];
+    for (std::size_t i = 0; i < r->world.bodies.size(); ++i) {
       if (r->changed.count(i) != 0) continue;  // a change that has not gone up
-      read_state(*state, r->world.bodies[i]);
-      r->marks[i].moved = state->flags.w;
-      if (i < r->bodies) r->watched_bodies[i] = {state->flags.w, (state->flags.x & SPHERE_OUTSIDE) != 0};
+      read_state(state[i], r->world.bodies[i]);
+      r->marks[i].moved = state[i].flags.w;
+      if (i < r->bodies) r->watched_bodies[i] = {state[i].flags.w, (state[i].flags.x & SPHERE_OUTSIDE) != 0};
     }
     r->known = true;
     r->unread = 0;

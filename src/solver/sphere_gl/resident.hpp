@@ -20,6 +20,8 @@ struct Resident {
   std::set<std::size_t> changed;   ///< bodies whose states must be uploaded
   std::vector<Batch::Mark> marks;  ///< index: body
   std::uint64_t steps = 0;
+  std::uint64_t left = 0;  ///< number of dispatches of step() that the present series of steps still needs
+  std::uint64_t cuts = 1;  ///< number of dispatches that the last whole step needed
   gpu::SphereProgress progress{};
   bool progress_changed = true;  ///< `progress` must be uploaded
   bool counted = false;          ///< the counters of `progress` were read: the device must set them to 0
@@ -39,8 +41,9 @@ struct Resident {
 /// Worlds whose steps were started, and whose results were not read yet.
 struct Flight {
   std::vector<WorldId> ids;
-  std::vector<Batch::Slot> slots;
-  std::vector<WorldId> read;  ///< worlds whose states are read after the last step
+  std::vector<WorldId> running;    ///< worlds that had steps left when they were last observed
+  std::vector<Batch::Slot> slots;  ///< slots of `running`
+  std::vector<WorldId> read;       ///< worlds of `running` whose states are read together with the counts
   std::unique_ptr<gl::ReadBack> back;
   float share = 1.0f;  ///< length of each step / length of a full step
   float rest = 0.0f;   ///< the same for one more step that follows the others; 0: none
@@ -61,6 +64,7 @@ WatchSeen seen_of(const gpu::SphereSeen& seen);
 WatchedEnergy energy_of(const gpu::SphereAudit& audit);
 
 /// Reads the data that Batch::request() gives for its worlds `read`: all progress, worst contacts, audits and states.
+/// Those of worlds that have steps left are skipped.
 void read_residents(const void* from, const std::vector<Resident*>& residents, Profile& profile);
 
 }  // namespace bin_scenes::sphere_gl

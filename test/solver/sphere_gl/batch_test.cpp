@@ -275,6 +275,32 @@ TEST(SphereGlBatch, AStepIsElevenDispatchesForAllWorldsOfABatch) {
   }
 }
 
+// Steps of a fast world are shortened. Its host knows from the last slice how many dispatches they need, and waits
+// once; worlds that are done meanwhile are neither stepped nor read again.
+TEST(SphereGlBatch, AWorldWhoseStepsAreShortenedIsObservedOnceASlice) {
+  Handful still(0), fast(2);
+  still.def.bin.kind = fast.def.bin.kind = Bin::Kind::none;
+  for (std::size_t i = 0; i < fast.starts.size(); ++i) {
+    fast.starts[i].pose.position = Vec3(0.0, 0.0, static_cast<double>(i));
+    fast.starts[i].velocity.linear = Vec3(11.0, 0.0, 0.0);  // a step is cut into 4
+  }
+  const auto solver = make_gl_sphere_solver(coarse());
+  const std::vector<WorldId> ids = {still.add(*solver), fast.add(*solver)};
+  const auto observations = [&] { return solver->profile().counters.at("observations"); };
+  constexpr std::size_t all =
+      sizeof(gpu::SphereSeen) + sizeof(gpu::SphereProgress) + sizeof(gpu::SphereWorst) + sizeof(gpu::SphereAudit);
+  const double slice = 7 * solver->step_size();
+  solver->advance(ids, slice);
+  EXPECT_EQ(observations(), 2u) << "at first nobody knows";
+  for (int k = 0; k < 3; ++k) {
+    const std::uint64_t before = observations();
+    const gl::Traffic asked = asked_for(*solver, ids, slice);
+    EXPECT_EQ(asked.dispatches, 4u * 7u * 11u + 3u);
+    EXPECT_EQ(asked.bytes_read_back, 2 * all + (5 + 11) * sizeof(gpu::SphereState));
+    EXPECT_EQ(observations() - before, 1u);
+  }
+}
+
 /// Two stacks of two blocks: what is taken out wakes the one above it, not the other stack. Asleep, a world costs no
 /// contact work.
 TEST(SphereGlBatch, TakingAPartOutWakesWhatItHeldUp) {
