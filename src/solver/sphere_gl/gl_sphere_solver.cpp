@@ -23,9 +23,6 @@ namespace {
 
 using namespace sphere_gl;
 
-/// A world without room waits no longer than these for the host. A slice of 7 steps seldom needs more, as parts that
-/// fall into a bin cut a step into 4.
-constexpr std::uint64_t steps_per_observation = 32;
 constexpr int most_unread = 64;  ///< stretches of steps: then counters are taken before they overflow
 
 class GlSphereSolver final : public Solver, private WorldWatch {
@@ -128,18 +125,40 @@ class GlSphereSolver final : public Solver, private WorldWatch {
   void finish(const std::vector<WorldId>& ids) override {
     device_->make_current();
     const gl::TrafficCount count(profile_);
-    const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
-    if (at == flights_.end()) return;
-    Flight flight = std::move(*at);
-    flights_.erase(at);
+    Flight flight = take_flight(ids);
+    if (flight.ids.empty()) return;
     go_on(flight);
     if (flight.rest > 0.0f) {
       start(flight, 1, std::exchange(flight.rest, 0.0f), true);
       go_on(flight);
     }
-    spare_.push_back(std::move(flight.back));
-    batch_.timer().collect(profile_);
+    end(flight);
   }
+
+  void begin_some(const std::vector<WorldId>& ids, double seconds) override {
+    device_->make_current();
+    const gl::TrafficCount count(profile_);
+    const Steps steps = steps_in(seconds, settings_.time_step);
+    BIN_SCENES_ASSERT(steps.whole > 0 && steps.rest == 0.0);
+    Flight flight;
+    flight.ids = ids;
+    flight.back = spare_back();
+    flight.most = 0;
+    for (const WorldId id : ids)
+      flight.most = std::max(flight.most, steps.whole * static_cast<std::uint64_t>(world(id).world.cuts));
+    start(flight, steps.whole, 1.0f, true);
+    flights_.push_back(std::move(flight));
+  }
+
+  void finish_some(const std::vector<WorldId>& ids) override {
+    device_->make_current();
+    const gl::TrafficCount count(profile_);
+    Flight flight = take_flight(ids);
+    observe(flight);
+    end(flight);
+  }
+
+  bool under_way(WorldId id) const override { return world(id).left > 0; }
 
   bool works_aside() const override { return true; }
 
@@ -249,6 +268,20 @@ class GlSphereSolver final : public Solver, private WorldWatch {
     r.changed.insert(body);
   }
 
+  /// The one that was begun with these worlds; without worlds if there is none.
+  Flight take_flight(const std::vector<WorldId>& ids) {
+    const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
+    if (at == flights_.end()) return {};
+    Flight flight = std::move(*at);
+    flights_.erase(at);
+    return flight;
+  }
+
+  void end(Flight& flight) {
+    spare_.push_back(std::move(flight.back));
+    batch_.timer().collect(profile_);
+  }
+
   std::unique_ptr<gl::ReadBack> spare_back() {
     if (spare_.empty()) return std::make_unique<gl::ReadBack>();
     std::unique_ptr<gl::ReadBack> back = std::move(spare_.back());
@@ -256,14 +289,19 @@ class GlSphereSolver final : public Solver, private WorldWatch {
     return back;
   }
 
+  /// Worlds that are under way go on.
   /// @param ends  no steps follow these
   void start(Flight& flight, std::uint64_t steps, float share, bool ends) {
     flight.share = share;
     flight.running = flight.ids;
     std::uint64_t most = 0;
+    std::vector<Batch::Slot> begins;
     std::vector<std::pair<Batch::Slot, gpu::SphereAsk>> asks;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
+      most = std::max(most, r.left);
+      if (r.left > 0) continue;
+      begins.push_back(r.slot);
       upload_changes(batch_, r);
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
       r.left = own * r.cuts;
@@ -277,9 +315,14 @@ class GlSphereSolver final : public Solver, private WorldWatch {
       if (ends) r.ask.observation = 0;
     }
     upload_progress(flight);
+    const bool all = begins.size() == flight.ids.size();
     batch_.upload_asks(std::move(asks));
+    if (!all && !begins.empty()) {
+      batch_.run(begins, flight.share);
+      batch_.begin_watch();
+    }
     run(flight);
-    batch_.begin_watch();
+    if (all) batch_.begin_watch();
     issue(flight, most);
   }
 
@@ -293,12 +336,16 @@ class GlSphereSolver final : public Solver, private WorldWatch {
 
   void run(Flight& flight) {
     flight.slots.clear();
-    for (const WorldId id : flight.running) flight.slots.push_back(world(id).slot);
-    batch_.run(flight.slots, flight.share);
+    std::vector<const Resident*> residents;
+    for (const WorldId id : flight.running) {
+      residents.push_back(&world(id));
+      flight.slots.push_back(residents.back()->slot);
+    }
+    batch_.run(longest_first(residents), flight.share);
   }
 
   void issue(Flight& flight, std::uint64_t left) {
-    const std::uint64_t steps = std::min(left, steps_per_observation);
+    const std::uint64_t steps = std::min(left, flight.most);
     for (std::uint64_t k = 0; k < steps; ++k) batch_.step();
     batch_.watch_rest();
     batch_.audit_energy();

@@ -20,6 +20,18 @@ int part_of(gpu::uint body, bool known) {
 
 }  // namespace
 
+std::vector<Batch::Slot> longest_first(const std::vector<const Resident*>& residents) {
+  std::vector<std::pair<int, Batch::Slot>> worlds;
+  for (const Resident* r : residents) {
+    const StepPlan plan = r->world.plan();
+    worlds.emplace_back(plan.sub_steps * (1 + plan.sweeps + plan.relaxing_sweeps), r->slot);
+  }
+  std::stable_sort(worlds.begin(), worlds.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Batch::Slot> slots;
+  for (const auto& [sweeps, slot] : worlds) slots.push_back(slot);
+  return slots;
+}
+
 std::vector<std::uint32_t> touched(sphere::World world, std::size_t body) {
   for (sphere::Body& b : world.bodies) sphere::put_to_sleep(world.settings, b);
   sphere::wake(world.bodies[body]);

@@ -9,6 +9,7 @@
 #include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 #include "solver/sphere_gl/handful.hpp"
+#include "solver/sphere_gl/resident.hpp"
 
 #include <gtest/gtest.h>
 
@@ -299,6 +300,18 @@ TEST(SphereGlBatch, AWorldWhoseStepsAreShortenedIsObservedOnceASlice) {
     EXPECT_EQ(asked.bytes_read_back, 2 * all + (5 + 11) * sizeof(gpu::SphereState));
     EXPECT_EQ(observations() - before, 1u);
   }
+}
+
+TEST(SphereGlBatch, WorldsWithTheMostSweepsComeFirst) {
+  std::vector<Resident> worlds(4);
+  const std::array stiffness{Stiffness::soft, Stiffness::rigid, Stiffness::soft, Stiffness::stiff};
+  std::vector<const Resident*> all;
+  for (std::size_t k = 0; k < worlds.size(); ++k) {
+    worlds[k].slot = 10 + k;
+    worlds[k].world.stiffness = stiffness[k];
+    all.push_back(&worlds[k]);
+  }
+  EXPECT_EQ(longest_first(all), (std::vector<Batch::Slot>{13, 11, 10, 12}));
 }
 
 /// Two stacks of two blocks: what is taken out wakes the one above it, not the other stack. Asleep, a world costs no
