@@ -205,7 +205,8 @@ struct SphereAsk {
 
 // The results that the host reads after each begin(): WatchSeen, and the remaining steps.
 struct SphereSeen {
-  uint left;        // number of remaining steps | SPHERE_BLOCKED
+  uint left;        // number of dispatches that the remaining steps need if no body becomes faster (24 bits), 0 if none
+                    // remain | number of shortened steps of the last whole step << 24 (7 bits) | SPHERE_BLOCKED
   uint observation, outside, fast, awake, unrested;  // members of the same names in WatchSeen
   uint moved01, moved23;  // WatchSeen::moved: two counts in each word, the first one in the lower 16 bits
 };

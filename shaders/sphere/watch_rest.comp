@@ -5,6 +5,7 @@
 
 layout(local_size_x = SPHERE_WORLD_GROUP) in;
 
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
 layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
 layout(std430, binding = BIND_PROGRESS) readonly buffer Progress { SphereProgress progress[]; };
@@ -62,14 +63,21 @@ void watch(uint body, SphereAsk ask, float gravity) {
     if (since >= ask.since[k]) atomicAdd(moved[k], 1u);
 }
 
+// SphereSeen::left.
+uint left_of(uint w) {
+  uint whole = progress[w].steps_left, cuts = 1u;
+  if (progress[w].time_step > 0.0) cuts = clamp(uint(settings.time_step / progress[w].time_step + 0.5), 1u, 64u);
+  uint begun = progress[w].cuts_left;  // the rest of a whole step
+  uint left = whole == 0u ? 0u : min((begun == 0u ? whole : whole - 1u) * cuts + begun, 0xffffffu);
+  return left | cuts << 24 | (progress[w].overflow != 0u ? SPHERE_BLOCKED : 0u);
+}
+
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
   SphereWorld world = worlds[w];
   SphereAsk ask = asks[w];
-  uint left = progress[w].steps_left;
-  bool blocked = progress[w].overflow != 0u;
-  if (left != 0u || blocked || ask.observation == 0u) {
-    if (thread == 0u) seen[w].left = blocked ? left | SPHERE_BLOCKED : left;
+  if (progress[w].steps_left != 0u || progress[w].overflow != 0u || ask.observation == 0u) {
+    if (thread == 0u) seen[w].left = left_of(w);
     return;
   }
   if (thread == 0u) outside = fast = awake = unrested = 0u;
@@ -80,6 +88,6 @@ void main() {
     if (is_watched(world.bodies.x + i)) watch(world.bodies.x + i, ask, gravity);
   barrier();
   if (thread != 0u) return;
-  seen[w] = SphereSeen(0u, ask.observation, outside, fast, awake, unrested, moved[0] | moved[1] << 16,
+  seen[w] = SphereSeen(left_of(w), ask.observation, outside, fast, awake, unrested, moved[0] | moved[1] << 16,
                        moved[2] | moved[3] << 16);
 }

@@ -43,7 +43,7 @@ void DeviceWatch::ask(double time, const Ages& ages, bool driven, bool states) {
   ask.rest_anew = std::exchange(rest_anew_, false);
   ask.energy_anew = std::exchange(energy_anew_, false);
   ask.driven = driven;
-  ask.states = states;
+  ask.states = asked_states_ = states;
   for (std::size_t k = 0; k < ages.size(); ++k) ask.since[k] = first_younger_than(ages[k]);
   rested_ = first_younger_than(window_ * (1.0 - 1e-9)) - 1;  // as RestWatch::observe()
   ask.rested = rested_;
@@ -56,7 +56,7 @@ void DeviceWatch::ask_nothing(bool states) {
   WatchAsk ask;
   ask.rest_anew = rest_anew_;
   ask.energy_anew = std::exchange(energy_anew_, false);  // of before these steps
-  ask.states = states;
+  ask.states = asked_states_ = states;
   watch_->ask(world_, ask);
   asked_ = false;
   states_ = false;

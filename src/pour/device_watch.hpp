@@ -38,6 +38,8 @@ class DeviceWatch {
   bool observed() const { return observed_; }   ///< whether there was an observation since restart()
   bool is_current() const { return current_; }  ///< whether the observation belongs to the end of the last steps
   bool has_states() const { return states_; }   ///< whether the states belong to the end of the last steps
+  /// Whether the states were asked for and not read: the world has ended its steps earlier than its device expected.
+  bool lacks_states() const { return asked_states_ && !states_; }
   const WatchSeen& seen() const { return watch_->seen(world_); }
   /// Returns the number of bodies that moved within the last `age` seconds, which must be one of the ages given to
   /// ask().
@@ -64,6 +66,7 @@ class DeviceWatch {
   Ages ages_{};
   std::uint32_t rested_ = 0;  ///< bodies that last moved in this observation or earlier are at rest
   bool rest_anew_ = true, energy_anew_ = true, asked_ = false, observed_ = false, current_ = false, states_ = true;
+  bool asked_states_ = false;
   WatchedEnergy earlier_;  ///< gains of earlier worlds of the heap, with their times
 };
 

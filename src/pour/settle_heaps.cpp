@@ -23,6 +23,8 @@ constexpr double slice_seconds = 1.0 / 60.0;  ///< simulated time between two ob
 struct Running {
   std::size_t number;
   HeapCore* heap;
+  bool under_way = false;  ///< the device works on its steps
+  bool ended = false;      ///< its steps have ended, and it was not observed since
 };
 
 /// Heaps that are simulated and observed together. Of two groups one is observed while the device works on the
@@ -32,13 +34,21 @@ struct Group {
   std::uint64_t left = 0;         ///< steps to the end of the slice
   std::uint64_t clock = 0;        ///< steps of the heap that is traced
   bool begun = false;             ///< a piece of the slice
+  bool together = true;           ///< all heaps end it at once; otherwise some go on in the next one (WorldWatch)
   std::uint64_t begun_steps = 0;  ///< its steps
   double seconds = 0.0;           ///< simulated by them
-  std::vector<WorldId> ids() const {
-    std::vector<WorldId> all;
-    for (const Running& r : running) all.push_back(r.heap->id());
-    return all;
+  std::vector<WorldId> under_way() const {
+    std::vector<WorldId> ids;
+    for (const Running& r : running)
+      if (r.under_way) ids.push_back(r.heap->id());
+    return ids;
   }
+};
+
+/// Steps of all heaps of a group.
+struct Piece {
+  std::uint64_t steps = 0;
+  double seconds = 0.0;
 };
 
 class Run {
@@ -79,25 +89,54 @@ class Run {
     group.left = slice_;
   }
 
-  /// A slice, in pieces that also end where a trace sample or a heap's set time is due.
-  void begin_piece(Group& group) {
+  /// A slice, or less where a trace sample or a heap's set time is due before its end.
+  Piece next_piece(const Group& group) const {
     std::uint64_t steps = group.left;
     if (tracing_) steps = std::min(steps, next_sample(group.clock) - group.clock);
     double seconds = static_cast<double>(steps) * step_;
     for (const Running& r : group.running) seconds = std::min(seconds, r.heap->time_left());
     for (const Running& r : group.running)
       if (r.heap->follows()) seconds = std::min(seconds, step_);
+    return {steps_in(seconds, step_).count(), seconds};
+  }
+
+  /// Heaps that are still under way go on.
+  void begin_piece(Group& group) {
+    const auto [steps, seconds] = next_piece(group);
     for (Running& r : group.running)
       if (r.heap->follows() && seconds > 0.0) r.heap->follow(seconds);
-    group.begun_steps = steps_in(seconds, step_).count();
-    for (Running& r : group.running) r.heap->ask(seconds, group.begun_steps == group.left);
-    if (group.begun_steps > 0) group.seconds = solver_.begin(group.ids(), seconds);
+    for (Running& r : group.running)
+      if (!r.under_way) r.heap->ask(seconds, steps == group.left);
+    group.begun_steps = steps;
+    group.seconds = seconds;
+    group.together = !solver_.watch() || steps < slice_;
+    if (steps == 0) return;
+    for (Running& r : group.running) r.under_way = true;
+    if (group.together)
+      group.seconds = solver_.begin(group.under_way(), seconds);
+    else
+      solver_.watch()->begin_some(group.under_way(), seconds);
+  }
+
+  void finish(Group& group) {
+    if (group.together)
+      solver_.finish(group.under_way());
+    else
+      solver_.watch()->finish_some(group.under_way());
+    for (Running& r : group.running) {
+      if (!r.under_way) continue;
+      r.under_way = !group.together && solver_.watch()->under_way(r.heap->id());
+      r.ended = !r.under_way;
+      if (r.ended) r.heap->advanced(group.seconds);
+    }
   }
 
   void end_piece(Group& group) {
-    if (group.begun_steps == 0) return;
-    solver_.finish(group.ids());
-    for (Running& r : group.running) r.heap->advanced(group.seconds);
+    if (group.begun_steps == 0) {  // the time of all is over
+      for (Running& r : group.running) r.ended = true;
+      return;
+    }
+    finish(group);
     const bool due = tracing_ && group.clock + group.begun_steps == next_sample(group.clock);
     group.clock += group.begun_steps;
     group.left -= group.begun_steps;
@@ -111,12 +150,28 @@ class Run {
     if (!watch) return;
     std::vector<WorldId> ids;
     for (Running& r : group.running)
-      if (r.heap->wants_states()) ids.push_back(r.heap->id());
+      if (r.ended && r.heap->wants_states()) ids.push_back(r.heap->id());
     watch->read(ids);
   }
 
   void end_slice(Group& group) {
     end_piece(group);
+    observe(group);
+    while (!group.under_way().empty() && next_piece(group).steps < slice_) {
+      end_all(group);  // a shorter piece is one of all heaps
+      observe(group);
+    }
+  }
+
+  /// Of heaps that were left under way.
+  void end_all(Group& group) {
+    group.together = true;
+    solver_.begin(group.under_way(), group.seconds);
+    finish(group);
+  }
+
+  /// Heaps that have ended their steps.
+  void observe(Group& group) {
     read_states(group);
     leave_if(group, [](HeapCore& heap) {
       if (heap.time_left() > 0.0) return false;
@@ -128,26 +183,30 @@ class Run {
       report(group);
       leave_if(group, [](HeapCore& heap) { return heap.over(); });
     }
+    for (Running& r : group.running) r.ended = false;
     if (group.left == 0 || group.running.empty()) fill(group);
   }
 
   /// On all cores: on a fast device, one thread could not observe all worlds in the time that it takes for a slice.
   static void advance(Group& group) {
+    std::vector<HeapCore*> heaps;
+    for (const Running& r : group.running)
+      if (r.ended) heaps.push_back(r.heap);
     const auto advance_heap = [&, flag = cancel_flag()](std::size_t i) {
       const CancelScope scope(flag);
-      group.running[i].heap->advance();
+      heaps[i]->advance();
     };
-    if (group.running.size() == 1)
+    if (heaps.size() == 1)
       advance_heap(0);
     else  // no scene is judged by this thread meanwhile
-      tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, group.running.size(), advance_heap); });
-    for (Running& r : group.running) r.heap->change_world();
+      tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, heaps.size(), advance_heap); });
+    for (HeapCore* heap : heaps) heap->change_world();
   }
 
   template <class Over>
   void leave_if(Group& group, Over over) {
     const auto leaves = [&](Running& r) {
-      if (!over(*r.heap)) return false;
+      if (!r.ended || !over(*r.heap)) return false;
       if (tracing_ && r.heap->time() > last_sample_) sample(*r.heap);
       ++over_;
       source_.over(r.number);
@@ -185,6 +244,7 @@ class Run {
   [[noreturn]] void cancel() {
     for (Group& group : groups_) {
       if (group.begun) end_piece(group);
+      if (!group.under_way().empty()) end_all(group);
       for (Running& r : group.running) r.heap->states();  // from which it can be recovered
     }
     throw Error(ErrorKind::cancelled, "cancelled", "pour", "ask again");

@@ -112,8 +112,10 @@ void HeapCore::advanced(double seconds) {
 }
 
 bool HeapCore::wants_states() {
-  if (!device_ || device_->has_states() || !device_->is_current()) return false;
-  const bool wants = device_->seen().outside > 0 || settling_.will_change(*this, time_) || over();
+  if (!device_ || device_->has_states()) return false;
+  const bool changes =
+      device_->is_current() && (device_->seen().outside > 0 || settling_.will_change(*this, time_) || over());
+  const bool wants = changes || device_->lacks_states();
   if (wants) device_->note_states();
   return wants;
 }

@@ -167,13 +167,59 @@ TEST(DeviceWatch, ReadsThirtyTwoBytesOfAWorld) {
     solver->advance(ids, slice);
     for (DeviceWatch& watch : watches) watch.take();
     const std::uint64_t read = bytes() - before;
-    // Steps of fast parts are cut: then a slice has more than the 16 behind which the host looks for worlds without
-    // room. And while lists grow, it reads what they need.
+    // Steps of fast parts are cut, and the host looks again at worlds that need more of them than it expected. And
+    // while lists grow, it reads what they need.
     if (k <= 50) continue;
     EXPECT_EQ(read, 3u * 32u + (k == slices ? states : 0u)) << k;
   }
   for (const WorldId id : ids) EXPECT_FALSE(solver->states(id).empty());
   EXPECT_LT(watches[2].seen().fast, 3u) << "they lie";
+}
+
+// A step of the fast world is four. Beside it the others go on, slice after slice, and each is observed when its own is
+// done; the states are those of worlds that are advanced alone.
+TEST(DeviceWatch, AWorldIsNotWaitedForByOthers) {
+  std::vector<Handful> parts{Handful(0), Handful(1)};
+  for (Handful& handful : parts) handful.def.bin.kind = Bin::Kind::none;
+  for (std::size_t i = 0; i < parts[1].starts.size(); ++i) {
+    parts[1].starts[i].pose.position = Vec3(0.0, 0.0, static_cast<double>(i));
+    parts[1].starts[i].velocity.linear = Vec3(11.0, 0.0, 0.0);
+  }
+  const auto hash_alone = [&](std::size_t k, int slices) {
+    const auto solver = make_gl_sphere_solver(sphere_gl::coarse());
+    const WorldId id = parts[k].add(*solver);
+    for (int slice_number = 0; slice_number < slices; ++slice_number) solver->advance({id}, slice);
+    return sphere_gl::hash_of(solver->states(id));
+  };
+  const auto solver = make_gl_sphere_solver(sphere_gl::coarse());
+  WorldWatch& watch = *solver->watch();
+  std::vector<WorldId> ids;
+  std::vector<DeviceWatch> watches;
+  for (const Handful& handful : parts) {
+    ids.push_back(handful.add(*solver));
+    watches.emplace_back(watch, rules_of(handful.def), window);
+    watches.back().begin_world(ids.back());
+  }
+  std::array<int, 2> slices{};
+  std::array<double, 2> time{};
+  for (int piece = 0; piece < 9; ++piece) {
+    for (std::size_t k = 0; k < 2; ++k)
+      if (!watch.under_way(ids[k])) watches[k].ask(time[k] + slice, ages, false, false);
+    watch.begin_some(ids, slice);
+    watch.finish_some(ids);
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (watch.under_way(ids[k])) continue;
+      watches[k].take();
+      time[k] += slice;
+      EXPECT_EQ(watches[k].seen().observation, static_cast<std::uint32_t>(++slices[k]));
+    }
+  }
+  EXPECT_EQ(slices, (std::array<int, 2>{9, 2})) << "28 of 63 shortened steps are those of a slice";
+  solver->begin({ids[1]}, slice);
+  solver->finish({ids[1]});
+  EXPECT_FALSE(watch.under_way(ids[1])) << "finish() ends the slice that was under way, and begins no other";
+  EXPECT_EQ(sphere_gl::hash_of(solver->states(ids[0])), hash_alone(0, 9));
+  EXPECT_EQ(sphere_gl::hash_of(solver->states(ids[1])), hash_alone(1, 3));
 }
 
 }  // namespace

@@ -69,6 +69,15 @@ class WorldWatch {
   virtual void enter(WorldId world, std::size_t body) = 0;
   /// Requests an observation at the end of the next begin().
   virtual void ask(WorldId world, const WatchAsk& ask) = 0;
+  /// As Solver::begin() and Solver::finish(), for worlds that do not wait for one another: while a body is fast, a step
+  /// is several shorter ones, and meanwhile the device would have nothing to do for the other worlds. finish_some()
+  /// leaves worlds whose steps are not done under way. A later begin_some() or begin() goes on with their steps, while
+  /// steps of the other listed worlds begin; finish() ends them.
+  /// @param seconds  for worlds whose steps begin: a multiple of Solver::step_size()
+  virtual void begin_some(const std::vector<WorldId>& worlds, double seconds) = 0;
+  virtual void finish_some(const std::vector<WorldId>& worlds) = 0;
+  /// Returns whether steps of a world that was begun are not done. Such a world must not be read or changed.
+  virtual bool under_way(WorldId world) const = 0;
   /// Returns the counts of the last observation. Valid after finish().
   virtual const WatchSeen& seen(WorldId world) const = 0;
   /// Reads the worlds from the device and waits for it. Afterwards states(), asleep(), bodies() and energy() are up to

@@ -23,7 +23,6 @@ namespace {
 
 using namespace sphere_gl;
 
-constexpr std::uint64_t steps_per_observation = 16;  ///< a world without room waits no longer than these for the host
 constexpr int most_unread = 64;  ///< stretches of steps: then counters are taken before they overflow
 
 class GlSphereSolver final : public Solver, private WorldWatch {
@@ -126,19 +125,40 @@ class GlSphereSolver final : public Solver, private WorldWatch {
   void finish(const std::vector<WorldId>& ids) override {
     device_->make_current();
     const gl::TrafficCount count(profile_);
-    const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
-    if (at == flights_.end()) return;
-    Flight flight = std::move(*at);
-    flights_.erase(at);
+    Flight flight = take_flight(ids);
+    if (flight.ids.empty()) return;
     go_on(flight);
     if (flight.rest > 0.0f) {
       start(flight, 1, std::exchange(flight.rest, 0.0f), true);
       go_on(flight);
     }
-    take(flight);
-    spare_.push_back(std::move(flight.back));
-    batch_.timer().collect(profile_);
+    end(flight);
   }
+
+  void begin_some(const std::vector<WorldId>& ids, double seconds) override {
+    device_->make_current();
+    const gl::TrafficCount count(profile_);
+    const Steps steps = steps_in(seconds, settings_.time_step);
+    BIN_SCENES_ASSERT(steps.whole > 0 && steps.rest == 0.0);
+    Flight flight;
+    flight.ids = ids;
+    flight.back = spare_back();
+    flight.most = 0;
+    for (const WorldId id : ids)
+      flight.most = std::max(flight.most, steps.whole * static_cast<std::uint64_t>(world(id).world.cuts));
+    start(flight, steps.whole, 1.0f, true);
+    flights_.push_back(std::move(flight));
+  }
+
+  void finish_some(const std::vector<WorldId>& ids) override {
+    device_->make_current();
+    const gl::TrafficCount count(profile_);
+    Flight flight = take_flight(ids);
+    observe(flight);
+    end(flight);
+  }
+
+  bool under_way(WorldId id) const override { return world(id).left > 0; }
 
   bool works_aside() const override { return true; }
 
@@ -248,6 +268,20 @@ class GlSphereSolver final : public Solver, private WorldWatch {
     r.changed.insert(body);
   }
 
+  /// The one that was begun with these worlds; without worlds if there is none.
+  Flight take_flight(const std::vector<WorldId>& ids) {
+    const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
+    if (at == flights_.end()) return {};
+    Flight flight = std::move(*at);
+    flights_.erase(at);
+    return flight;
+  }
+
+  void end(Flight& flight) {
+    spare_.push_back(std::move(flight.back));
+    batch_.timer().collect(profile_);
+  }
+
   std::unique_ptr<gl::ReadBack> spare_back() {
     if (spare_.empty()) return std::make_unique<gl::ReadBack>();
     std::unique_ptr<gl::ReadBack> back = std::move(spare_.back());
@@ -255,17 +289,23 @@ class GlSphereSolver final : public Solver, private WorldWatch {
     return back;
   }
 
+  /// Worlds that are under way go on.
   /// @param ends  no steps follow these
   void start(Flight& flight, std::uint64_t steps, float share, bool ends) {
     flight.share = share;
-    flight.slots.clear();
+    flight.running = flight.ids;
     std::uint64_t most = 0;
+    std::vector<Batch::Slot> begins;
     std::vector<std::pair<Batch::Slot, gpu::SphereAsk>> asks;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
+      most = std::max(most, r.left);
+      if (r.left > 0) continue;
+      begins.push_back(r.slot);
       upload_changes(batch_, r);
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
-      most = std::max(most, own);
+      r.left = own * r.cuts;
+      most = std::max(most, r.left);
       r.steps += own;
       asks.emplace_back(r.slot, r.ask);
       asks.back().second.steps = static_cast<gpu::uint>(own);
@@ -273,32 +313,47 @@ class GlSphereSolver final : public Solver, private WorldWatch {
       if (std::exchange(r.counted, false)) asks.back().second.flags |= SPHERE_COUNTED;
       r.ask.flags = 0;  // what begins anew has begun
       if (ends) r.ask.observation = 0;
-      flight.slots.push_back(r.slot);
     }
     upload_progress(flight);
+    const bool all = begins.size() == flight.ids.size();
     batch_.upload_asks(std::move(asks));
-    batch_.run(flight.slots, flight.share);
-    batch_.begin_watch();
+    if (!all && !begins.empty()) {
+      batch_.run(begins, flight.share);
+      batch_.begin_watch();
+    }
+    run(flight);
+    if (all) batch_.begin_watch();
     issue(flight, most);
   }
 
   /// Until no steps are left.
   void go_on(Flight& flight) {
     while (const std::uint64_t left = observe(flight)) {
-      batch_.run(flight.slots, flight.share);
+      run(flight);
       issue(flight, left);
     }
   }
 
+  void run(Flight& flight) {
+    flight.slots.clear();
+    std::vector<const Resident*> residents;
+    for (const WorldId id : flight.running) {
+      residents.push_back(&world(id));
+      flight.slots.push_back(residents.back()->slot);
+    }
+    batch_.run(longest_first(residents), flight.share);
+  }
+
   void issue(Flight& flight, std::uint64_t left) {
-    for (std::uint64_t k = 0; k < std::min(left, steps_per_observation); ++k) batch_.step();
+    const std::uint64_t steps = std::min(left, flight.most);
+    for (std::uint64_t k = 0; k < steps; ++k) batch_.step();
     batch_.watch_rest();
     batch_.audit_energy();
     std::vector<Batch::Slot> read;
     flight.read.clear();
-    for (const WorldId id : flight.ids) {
+    for (const WorldId id : flight.running) {
       const Resident& r = world(id);
-      const bool last = left <= steps_per_observation && flight.rest == 0.0f;
+      const bool last = r.left <= steps && flight.rest == 0.0f;
       if (!last || (r.watched && !r.wants_states && r.unread < most_unread)) continue;
       flight.read.push_back(id);
       read.push_back(r.slot);
@@ -306,26 +361,48 @@ class GlSphereSolver final : public Solver, private WorldWatch {
     batch_.request(flight.slots, read, *flight.back);
   }
 
-  /// Waits for what the steps left behind, makes room where it was asked for, and returns how many steps are left.
-  std::uint64_t observe(const Flight& flight) {
+  /// Waits for what the steps left behind, takes what worlds without further steps have shown, makes room where it was
+  /// asked for, and returns how many dispatches the other worlds need.
+  std::uint64_t observe(Flight& flight) {
     const auto* seen = static_cast<const gpu::SphereSeen*>(flight.back->wait());
-    std::uint64_t left = 0;
+    profile_.count("observations");
+    std::uint64_t most = 0;
     bool blocked = false;
-    for (std::size_t i = 0; i < flight.ids.size(); ++i) {
-      left = std::max<std::uint64_t>(left, seen[i].left & ~SPHERE_BLOCKED);
-      blocked = blocked || (seen[i].left & SPHERE_BLOCKED) != 0;
+    std::vector<WorldId> running;
+    for (const WorldId id : flight.running) {
+      Resident& r = world(id);
+      r.left = seen->left & 0xffffffu;
+      r.cuts = std::max(1u, seen->left >> 24 & 0x7fu);
+      blocked = blocked || (seen->left & SPHERE_BLOCKED) != 0;
+      most = std::max(most, r.left);
+      if (r.left > 0) running.push_back(id);
+      if (r.left == 0 && flight.rest == 0.0f) take(r, *seen);
+      ++seen;
     }
+    std::vector<Resident*> read;
+    for (const WorldId id : flight.read) read.push_back(&world(id));
+    read_residents(seen, read, profile_);
+    for (Resident* r : read) r->seen.states = r->left == 0;
+    flight.running = std::move(running);
     if (blocked) make_room(flight);
-    return left;
+    return most;
+  }
+
+  static void take(Resident& r, const gpu::SphereSeen& seen) {
+    r.seen = seen_of(seen);
+    r.known = false;
+    ++r.unread;
   }
 
   /// Of worlds some of which wait for room.
   void make_room(const Flight& flight) {
+    std::vector<Batch::Slot> slots;
+    for (const WorldId id : flight.running) slots.push_back(world(id).slot);
     gl::ReadBack back;
-    batch_.request_progress(flight.slots, back);
+    batch_.request_progress(slots, back);
     const auto* now = static_cast<const gpu::SphereProgress*>(back.wait());
     gpu::uint samples = 0, candidates = 0;
-    for (const WorldId id : flight.ids) {
+    for (const WorldId id : flight.running) {
       Resident& r = world(id);
       r.progress = *now++;
       take_counters(r.progress, profile_);
@@ -338,26 +415,11 @@ class GlSphereSolver final : public Solver, private WorldWatch {
 
   void upload_progress(const Flight& flight) {
     std::vector<std::pair<Batch::Slot, gpu::SphereProgress>> worlds;
-    for (const WorldId id : flight.ids) {
+    for (const WorldId id : flight.running) {
       Resident& r = world(id);
       if (std::exchange(r.progress_changed, false)) worlds.emplace_back(r.slot, r.progress);
     }
     batch_.upload_progress(std::move(worlds));
-  }
-
-  /// What was seen, and where states were asked for, all of the world.
-  void take(const Flight& flight) {
-    const auto* seen = static_cast<const gpu::SphereSeen*>(flight.back->wait());
-    for (const WorldId id : flight.ids) {
-      Resident& r = world(id);
-      r.seen = seen_of(*seen++);
-      r.known = false;
-      ++r.unread;
-    }
-    std::vector<Resident*> read;
-    for (const WorldId id : flight.read) read.push_back(&world(id));
-    read_residents(seen, read, profile_);
-    for (Resident* r : read) r->seen.states = true;
   }
 
   std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it

@@ -20,6 +20,18 @@ int part_of(gpu::uint body, bool known) {
 
 }  // namespace
 
+std::vector<Batch::Slot> longest_first(const std::vector<const Resident*>& residents) {
+  std::vector<std::pair<int, Batch::Slot>> worlds;
+  for (const Resident* r : residents) {
+    const StepPlan plan = r->world.plan();
+    worlds.emplace_back(plan.sub_steps * (1 + plan.sweeps + plan.relaxing_sweeps), r->slot);
+  }
+  std::stable_sort(worlds.begin(), worlds.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Batch::Slot> slots;
+  for (const auto& [sweeps, slot] : worlds) slots.push_back(slot);
+  return slots;
+}
+
 std::vector<std::uint32_t> touched(sphere::World world, std::size_t body) {
   for (sphere::Body& b : world.bodies) sphere::put_to_sleep(world.settings, b);
   sphere::wake(world.bodies[body]);
@@ -109,17 +121,19 @@ void read_residents(const void* from, const std::vector<Resident*>& residents, P
   const auto* worst = reinterpret_cast<const gpu::SphereWorst*>(progress + count);
   const auto* audit = reinterpret_cast<const gpu::SphereAudit*>(worst + count);
   const auto* state = reinterpret_cast<const gpu::SphereState*>(audit + count);
-  for (Resident* r : residents) {
-    r->progress = *progress++;
+  for (std::size_t k = 0; k < count; state += residents[k]->world.bodies.size(), ++k) {
+    Resident* const r = residents[k];
+    if (r->left > 0) continue;
+    r->progress = progress[k];
     take_counters(r->progress, profile);
     r->counted = true;
-    r->worst = *worst++;
-    r->audit = *audit++;
-    for (std::size_t i = 0; i < r->world.bodies.size(); ++i, ++state) {
+    r->worst = worst[k];
+    r->audit = audit[k];
+    for (std::size_t i = 0; i < r->world.bodies.size(); ++i) {
       if (r->changed.count(i) != 0) continue;  // a change that has not gone up
-      read_state(*state, r->world.bodies[i]);
-      r->marks[i].moved = state->flags.w;
-      if (i < r->bodies) r->watched_bodies[i] = {state->flags.w, (state->flags.x & SPHERE_OUTSIDE) != 0};
+      read_state(state[i], r->world.bodies[i]);
+      r->marks[i].moved = state[i].flags.w;
+      if (i < r->bodies) r->watched_bodies[i] = {state[i].flags.w, (state[i].flags.x & SPHERE_OUTSIDE) != 0};
     }
     r->known = true;
     r->unread = 0;

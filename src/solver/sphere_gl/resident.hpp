@@ -20,6 +20,8 @@ struct Resident {
   std::set<std::size_t> changed;   ///< bodies whose states must be uploaded
   std::vector<Batch::Mark> marks;  ///< index: body
   std::uint64_t steps = 0;
+  std::uint64_t left = 0;  ///< number of dispatches of step() that the present steps still need; above 0: under way
+  std::uint64_t cuts = 1;  ///< number of dispatches that the last whole step needed
   gpu::SphereProgress progress{};
   bool progress_changed = true;  ///< `progress` must be uploaded
   bool counted = false;          ///< the counters of `progress` were read: the device must set them to 0
@@ -36,16 +38,25 @@ struct Resident {
   std::vector<WatchedBody> watched_bodies;
 };
 
+/// A world without room waits no longer than these steps for the host. A slice of 7 steps seldom needs more, as parts
+/// that fall into a bin cut a step into 4.
+constexpr std::uint64_t most_steps = 32;
+
 /// Worlds whose steps were started, and whose results were not read yet.
 struct Flight {
   std::vector<WorldId> ids;
-  std::vector<Batch::Slot> slots;
-  std::vector<WorldId> read;  ///< worlds whose states are read after the last step
+  std::vector<WorldId> running;    ///< worlds that had steps left when they were last observed
+  std::vector<Batch::Slot> slots;  ///< slots of `running`
+  std::vector<WorldId> read;       ///< worlds of `running` whose states are read together with the counts
   std::unique_ptr<gl::ReadBack> back;
-  float share = 1.0f;  ///< length of each step / length of a full step
-  float rest = 0.0f;   ///< the same for one more step that follows the others; 0: none
+  std::uint64_t most = most_steps;  ///< largest number of dispatches of step() between two observations
+  float share = 1.0f;               ///< length of each step / length of a full step
+  float rest = 0.0f;                ///< the same for one more step that follows the others; 0: none
 };
 
+/// Returns the slots of worlds, those whose steps have the most sweeps first: a card begins groups in this order, and a
+/// dispatch lasts as long as its last group.
+std::vector<Batch::Slot> longest_first(const std::vector<const Resident*>& residents);
 /// Returns the bodies that have contacts with `body`. The CPU passes find them, with all other bodies asleep.
 std::vector<std::uint32_t> touched(sphere::World world, std::size_t body);
 /// Uploads the bodies that changed since the last steps, and resets the worst contact on the device if it was taken.
@@ -61,6 +72,7 @@ WatchSeen seen_of(const gpu::SphereSeen& seen);
 WatchedEnergy energy_of(const gpu::SphereAudit& audit);
 
 /// Reads the data that Batch::request() gives for its worlds `read`: all progress, worst contacts, audits and states.
+/// Those of worlds that have steps left are skipped.
 void read_residents(const void* from, const std::vector<Resident*>& residents, Profile& profile);
 
 }  // namespace bin_scenes::sphere_gl

@@ -9,6 +9,7 @@
 #include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 #include "solver/sphere_gl/handful.hpp"
+#include "solver/sphere_gl/resident.hpp"
 
 #include <gtest/gtest.h>
 
@@ -273,6 +274,44 @@ TEST(SphereGlBatch, AStepIsElevenDispatchesForAllWorldsOfABatch) {
                                           sizeof(gpu::SphereWorst) + sizeof(gpu::SphereAudit)) +
                                          (5 + 8 + 11) * sizeof(gpu::SphereState));
   }
+}
+
+// Steps of a fast world are shortened. Its host knows from the last slice how many dispatches they need, and waits
+// once; worlds that are done meanwhile are neither stepped nor read again.
+TEST(SphereGlBatch, AWorldWhoseStepsAreShortenedIsObservedOnceASlice) {
+  Handful still(0), fast(2);
+  still.def.bin.kind = fast.def.bin.kind = Bin::Kind::none;
+  for (std::size_t i = 0; i < fast.starts.size(); ++i) {
+    fast.starts[i].pose.position = Vec3(0.0, 0.0, static_cast<double>(i));
+    fast.starts[i].velocity.linear = Vec3(11.0, 0.0, 0.0);  // a step is cut into 4
+  }
+  const auto solver = make_gl_sphere_solver(coarse());
+  const std::vector<WorldId> ids = {still.add(*solver), fast.add(*solver)};
+  const auto observations = [&] { return solver->profile().counters.at("observations"); };
+  constexpr std::size_t all =
+      sizeof(gpu::SphereSeen) + sizeof(gpu::SphereProgress) + sizeof(gpu::SphereWorst) + sizeof(gpu::SphereAudit);
+  const double slice = 7 * solver->step_size();
+  solver->advance(ids, slice);
+  EXPECT_EQ(observations(), 2u) << "at first nobody knows";
+  for (int k = 0; k < 3; ++k) {
+    const std::uint64_t before = observations();
+    const gl::Traffic asked = asked_for(*solver, ids, slice);
+    EXPECT_EQ(asked.dispatches, 4u * 7u * 11u + 3u);
+    EXPECT_EQ(asked.bytes_read_back, 2 * all + (5 + 11) * sizeof(gpu::SphereState));
+    EXPECT_EQ(observations() - before, 1u);
+  }
+}
+
+TEST(SphereGlBatch, WorldsWithTheMostSweepsComeFirst) {
+  std::vector<Resident> worlds(4);
+  const std::array stiffness{Stiffness::soft, Stiffness::rigid, Stiffness::soft, Stiffness::stiff};
+  std::vector<const Resident*> all;
+  for (std::size_t k = 0; k < worlds.size(); ++k) {
+    worlds[k].slot = 10 + k;
+    worlds[k].world.stiffness = stiffness[k];
+    all.push_back(&worlds[k]);
+  }
+  EXPECT_EQ(longest_first(all), (std::vector<Batch::Slot>{13, 11, 10, 12}));
 }
 
 /// Two stacks of two blocks: what is taken out wakes the one above it, not the other stack. Asleep, a world costs no
