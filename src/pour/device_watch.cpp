@@ -28,9 +28,8 @@ void DeviceWatch::restart() {
 }
 
 std::uint32_t DeviceWatch::first_younger_than(double age) const {
-  std::uint32_t first = 1;
-  while (first < times_.size() && times_.back() - times_[first] >= age) ++first;
-  return first;
+  const auto old = [&](double time) { return times_.back() - time >= age; };
+  return static_cast<std::uint32_t>(std::partition_point(times_.begin() + 1, times_.end(), old) - times_.begin());
 }
 
 void DeviceWatch::ask(double time, const Ages& ages, bool driven, bool states) {

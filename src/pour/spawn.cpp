@@ -141,10 +141,11 @@ Cover cover(const Mesh& mesh, int cells) {
 
 void Rain::add(const Cover& cover, const Pose& pose, bool settled) {
   const Vec3 center = pose * cover.center;
-  order_.emplace_back(center.z() + cover.radius, obstacles_.size());
+  const std::pair<double, std::size_t> entry(center.z() + cover.radius, obstacles_.size());
   BIN_SCENES_ASSERT(is_rigid(pose));
   obstacles_.push_back({&cover, pose, settled, center, {}});
-  sorted_ = false;
+  order_.insert(sorted_ ? std::upper_bound(order_.begin(), order_.end(), entry, std::greater<>()) : order_.end(),
+                entry);
 }
 
 void Rain::sort() {
@@ -167,7 +168,12 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Rando
   const Vec3 lower = opening_.lower - bounds.lower, upper = opening_.upper - bounds.upper;
   const std::vector<Opening::Side> sides = for_frames(opening_.sides, part, orientation);
   std::optional<Pose> best;
-  std::vector<Vec3> own(shape.balls.size());  // where its balls are, this try
+  std::vector<Cover::Ball> own = shape.balls;  // turned, the lowest first
+  for (Cover::Ball& ball : own) ball.center = orientation * ball.center;
+  std::sort(own.begin(), own.end(), [](const Cover::Ball& a, const Cover::Ball& b) {
+    return a.center.z() - a.radius < b.center.z() - b.radius;
+  });
+  constexpr double rounding = 1e-12;  // m: of the bound below, which falls from ball to ball but for this
   sort();
   for (int t = 0; t < tries; ++t) {
     const double u = random.uniform(), v = random.uniform();  // drawn before any test: one try, one set of numbers
@@ -176,7 +182,6 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Rando
 
     double clear = opening_.lower.z() - bounds.lower.z(), heap = clear;
     const Vec3 mid = pose * shape.center;
-    for (std::size_t i = 0; i < own.size(); ++i) own[i] = pose * shape.balls[i].center;
     const auto too_high = [&] {
       const double z = clear + drop_height_;
       return (best && z >= best->position.z()) || z + bounds.lower.z() > opening_.upper.z() + drop_height_;
@@ -191,9 +196,9 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Rando
         const Vec3& ball = balls[k];
         const double radius = other.cover->balls[k].radius;
         if (lift(ball, radius, mid, shape.radius) <= known) continue;
-        for (std::size_t i = 0; i < own.size(); ++i) {
-          if (ball.z() - own[i].z() + radius + shape.balls[i].radius < known) continue;
-          const double height = lift(ball, radius, own[i], shape.balls[i].radius);
+        for (const Cover::Ball& mine : own) {
+          if (ball.z() - mine.center.z() + radius + mine.radius < known - rounding) break;
+          const double height = lift(ball, radius, pose.position + mine.center, mine.radius);
           clear = std::max(clear, height);
           if (other.settled) heap = std::max(heap, height);
         }

@@ -69,7 +69,7 @@ class Rain {
   std::vector<Obstacle> obstacles_;
   /// Height of the top of each cover (m) and the index of its obstacle, the highest first.
   std::vector<std::pair<double, std::size_t>> order_;
-  bool sorted_ = true;
+  bool sorted_ = false;
 };
 
 /// Returns the start poses of the thesis: a three-dimensional grid above the opening with random orientations. The edge
