@@ -40,6 +40,7 @@ struct Side {
   uvec4 samples;     // first node, number of nodes, first edge, first cluster
   vec4 sizes;        // cell, padding, radius of the nodes, margin
   float sag;
+  float movement;    // largest predicted movement of a sample in this step (m)
   uint clusters;     // 0 for the ground
 };
 
@@ -100,6 +101,8 @@ void hold_side(uint s, uint of_job) {
   sides[s].samples = uvec4(own.nodes.xyz, own.clusters.x);
   sides[s].sizes = vec4(field.cell, field.padding, radius_of(own), view.margin);
   sides[s].sag = sag_of(own);
+  float radius = shapes[bodies[of_a ? pair.a : pair.b].ids.x].box_center.w;
+  sides[s].movement = length(view.drift) + length(view.twist) * (length(offset) + radius);
   sides[s].clusters = own.clusters.y;
   atomicAdd(progress[world_index].clusters_tested, own.clusters.y);
   count_possible(own.nodes.y);
@@ -162,7 +165,8 @@ void test_waiting(uint at) {
   vec3 along = q.point - point.xyz;
   if (!edge_may_touch(view, edge, point.w, q.distance)) return;
   bool descends = dot(gradient, along) < 0.0 && dot(q.gradient, along) > 0.0;
-  if (descends || may_cross(view, edge, point.w) || may_cross(view, edge, q.distance))
+  if (descends || may_cross(view, edge, point.w) || may_cross(view, edge, q.distance) ||
+      may_arrive(view, edge, point.w, q.distance, sides[s].movement))
     collect(s, e | SPHERE_EDGE, descends ? SPHERE_SAMPLE_DESCENDS : SPHERE_SAMPLE_CROSSES);
 }
 

@@ -108,7 +108,7 @@ bool is_better(uint key, uint feature, uint best_key, uint best) {
 }
 
 // Finds the candidate of this invocation with the best score, given those chosen so far. Returns its score as a key.
-uint best_beside(uint chosen, float size, float soon, out uint best) {
+uint best_beside(uint chosen, Approach approach, float size, float soon, out uint best) {
   uint key = best = 0u;
   vec3 on_a = chosen_on_a[team_old + chosen - 1u].xyz, normal = chosen_normal[team_old + chosen - 1u];
   FOR_OWN_CANDIDATES(at) {
@@ -118,7 +118,7 @@ uint best_beside(uint chosen, float size, float soon, out uint best) {
     if (apart < TWIN * size) apart = -1.0;
     candidates[at].apart = apart;
     if (apart < 0.0) continue;
-    float gap = gap_of(c.separation, chosen_on_a[team_old].w);
+    float gap = gap_of(approach, c.on_a, c.normal, c.separation, chosen_on_a[team_old].w, size);
     float score = worth_of(gap, soon, size) * (apart + advantage_of(c.separation, gap, c.known != 0u, size));
     uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
     if (!is_better(value, c.feature, key, best)) continue;
@@ -129,7 +129,7 @@ uint best_beside(uint chosen, float size, float soon, out uint best) {
 }
 
 // Chooses the candidates that become contacts (shared/sphere/choice.h). Returns their number. size, soon: m.
-uint reduce(float size, float soon) {
+uint reduce(Approach approach, float size, float soon) {
   uint key = 0u, best = 0u, count = 0u;
   FOR_OWN_CANDIDATES(at) {
     uint depth = depth_key(candidates[at].separation);
@@ -143,7 +143,7 @@ uint reduce(float size, float soon) {
     key = 0u;
     if (!chooses) continue;
     ++count;
-    if (count < SPHERE_MAX_CONTACTS) key = best_beside(count, size, soon, best);
+    if (count < SPHERE_MAX_CONTACTS) key = best_beside(count, approach, size, soon, best);
   }
   return count;
 }
@@ -210,6 +210,21 @@ void write_contact(SphereWorld world, SpherePair pair, Placement a, Placement b)
   contacts[at].force = source != NO_SOURCE ? old[team_old + source].force : vec4(0.0);
 }
 
+// Returns the motion of b, or of the ground, relative to a in this step, without gravity. Twin: find_contacts.cpp.
+Approach approach_of(SpherePair pair, Placement a, Placement b) {
+  vec3 v = vec3(0.0), w = vec3(0.0);
+  if (moves(pair.a)) {
+    v = -states[pair.a].velocity.xyz;
+    w = -states[pair.a].spin.xyz;
+  }
+  if (pair.b != SPHERE_GROUND && moves(pair.b)) {
+    vec3 spin = states[pair.b].spin.xyz;
+    v += states[pair.b].velocity.xyz + cross(spin, a.position - b.position);
+    w += spin;
+  }
+  return Approach(time_step * (v * a.rotation), time_step * (w * a.rotation));
+}
+
 // Chooses and stores the contacts of a pair. Called by all invocations; a team without a pair gives any pair.
 void choose_contacts(SpherePair pair, bool has_pair) {
   SphereWorld world = worlds[world_index];
@@ -219,7 +234,7 @@ void choose_contacts(SpherePair pair, bool has_pair) {
   float size = size_of(pair);
   // A fast pair may close any gap that is smaller than its travel.
   float soon = SOON * size + max(0.0, travel_of(world, pair) - settings.margin * size);
-  uint count = reduce(size, soon);
+  uint count = reduce(approach_of(pair, a, b), size, soon);
   carry_forces(count, samples_of(pair.a).size.y, a.rotation, b.rotation, ground);
   if (member < count) write_contact(world, pair, a, b);
   if (member == 0u && has_pair) end_choice(world, pair, count, found_count[team]);

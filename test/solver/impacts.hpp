@@ -24,19 +24,16 @@ TEST_P(Impacts, WithoutFrictionNothingIsPushedSideways) {
         }
 }
 
-// Where edges cross, a sample of one of them beside the crossing may lean: 3 of 12 err by 0.7, 1.5 and 4.3 degrees.
+// Of edges that approach by more than the reach of the distance field in a step, 6 of 24 went off by up to 4.3 degrees.
 TEST_P(Impacts, GoAlongTheExactNormalAndKeepMomentum) {
-  int off = 0;
   for (const Meeting meeting : {Meeting::corner_face, Meeting::edge_edge, Meeting::face_face})
-    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (std::uint64_t seed = 0; seed < (meeting == Meeting::edge_edge ? 24 : 12); ++seed) {
       SCOPED_TRACE("features " + std::to_string(static_cast<int>(meeting)) + ", seed " + std::to_string(seed));
       const Exchange exchange = meet(lab(), meeting, seed);
-      EXPECT_LT(exchange.angle, meeting == Meeting::edge_edge ? 5.0 : 0.1);
-      off += exchange.angle > 0.1;
+      EXPECT_LT(exchange.angle, 0.1);
       EXPECT_LT(exchange.momentum, 1e-5);
       EXPECT_LT(exchange.energy, 1.0 + GetParam().rounding);
     }
-  EXPECT_LE(off, GetParam().name == "bullet" ? 0 : 3);
 }
 
 // The median: a few falls end on a ridge, where either side is as right. Bullet's margins make it 2 %.

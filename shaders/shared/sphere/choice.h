@@ -17,10 +17,21 @@ INLINE float distance_between(IN(vec3) on_a, IN(vec3) normal, IN(vec3) chosen_on
   return length(on_a - chosen_on_a) + 0.3f * size * length(normal - chosen_normal);
 }
 
+// The motion of b relative to a that is predicted for this step (m, rad), in the frame of a.
+struct Approach {
+  vec3 drift, twist;
+};
+
 // Returns the gap (m) that lowers the score of a candidate: the amount by which its separation exceeds the smallest
-// separation of the pair. On faces that are about to meet, all gaps are equal, and the result is 0.
-INLINE float gap_of(float separation, float least_separation) {
-  return max(0.0f, separation - max(0.0f, least_separation));
+// separation of the pair. On faces that are about to meet, all gaps are equal, and the result is 0. A gap that closes
+// fast, within this step, lowers the score little: otherwise, a wall along which a part falls would replace the edge on
+// which the part lands.
+INLINE float gap_of(IN(Approach) approach, IN(vec3) on_a, IN(vec3) normal, float separation, float least_separation,
+                    float size) {
+  const float of_closing = 0.01f;
+  float nearing = -dot(normal, approach.drift + cross(approach.twist, on_a));
+  float gap = max(0.0f, separation - max(0.0f, least_separation));
+  return nearing > max(separation, SOON * size) ? of_closing * gap : gap;
 }
 
 // Returns the bonus (m) of a candidate in the score. A metre of depth counts eight times as much as a metre of distance

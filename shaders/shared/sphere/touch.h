@@ -10,7 +10,8 @@
 
 const float NEARLY_ALL = 0.99f;  // smallest cosine between an exit and its rotation into a cone: 8 degrees
 const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: within this angle, two faces count as lying on each other
-const float LEANS = 0.02f;       // sine of the smallest angle at which an edge of the sample dips below the face
+const float END = 1e-4f;    // share of an edge's length: a crossing that is nearer to an end is left to the node there
+const float LEANS = 0.02f;  // sine of the smallest angle at which an edge of the sample dips below the face
 
 // Returns the largest error of the field (m) near an edge of the surface.
 INLINE float error_of(IN(Field) field) {
@@ -207,13 +208,15 @@ INLINE Exit nearest_exit(IN(Walls) walls, IN(Exits) exits, IN(vec3) away, float 
 // Emits the contacts of a sample. A sample that passes an edge before the step ends is held by the face that it will
 // face then, and not by the surface at its present position. Otherwise, the plane across the edge would stop it there,
 // for example a peg above the mouth of its hole. A sample that meets a surface on its path is held by that surface, as
-// seen from its present position.
+// seen from its present position, or, if it is farther away than a cell, from the last place of its path in front of
+// the surface: far from an edge, it is not seen on which part of the surface the sample will press.
 INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) {
   const int most_advances = 18;
   View view = given;
   Touch at = touch;
   vec3 drift = view.drift + cross(view.twist, touch.point);
-  float size = length(drift), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
+  float size = length(drift), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f, clear = 0.0f;
+  bool far = touch.distance > view.field.cell;
   bool advances = abs(touch.distance) <= error || (touch.distance > 0.0f && touch.distance - error < size);
   Walls walls;
   Exits exits;
@@ -233,8 +236,11 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
       break;
     }
     advances = !meets && i + 2 < most_advances;
-    done = advances ? min(done + max(near.distance, least), size) : 0.0f;
-    at.point = touch.point + (done > 0.0f ? done / size : 0.0f) * drift;
+    if (!meets) clear = done;
+    done = advances ? min(done + max(near.distance, least), size) : far ? clear : 0.0f;
+    vec3 ahead = (done > 0.0f ? done / size : 0.0f) * drift;
+    if (!advances) view.ahead = ahead;
+    at.point = touch.point + ahead;
     at.distance = sample_field(view.field, at.point, at.gradient);
   }
   bool creased = walls.count > 0u;
@@ -267,11 +273,52 @@ INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
   return edge.sharp != 0u && radius_of(view.samples) <= 0.0f && abs(distance) <= view.field.cell;
 }
 
-// Tests edge e between its ends p and q, and emits a candidate where it crosses an edge of the other part. Returns
-// whether offer() must be called for `touch`, the deepest point of the edge.
-INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
-  IN(Edge) edge = edge_at(view.samples, e);
-  bool lowest = descend(view.field, p, q, touch);
+// Returns whether an edge whose ends are farther away (m) than a cell may come as near as that in this step.
+// `movement`: largest predicted movement of its points (m).
+INLINE bool may_arrive(IN(View) view, IN(Edge) edge, float distance_p, float distance_q, float movement) {
+  float cell = view.field.cell;
+  return min(distance_p, distance_q) > cell && 0.5f * (distance_p + distance_q - length_of(edge)) - cell < movement;
+}
+
+INLINE Touch touch_at(IN(View) view, IN(vec3) point) {
+  Touch touch;
+  touch.point = point;
+  touch.distance = sample_field(view.field, point, touch.gradient);
+  return touch;
+}
+
+// Finds the deepest point of the edge from p to q, as descend() does. If the edge is farther away than a cell, it is
+// first moved along its predicted motion, until it is within a cell of the other part. (Beyond the grid, the field is a
+// lower bound, and its gradient is that of a face beside the place where the edges will meet; the lists of edges end
+// there as well.) No movement is longer than the distance, so that the edge does not pass through a surface. `lowest`:
+// result of descend(). Returns whether the edge was moved; p and q are then its ends at its new place.
+INLINE bool arrive(IN(View) view, IN(Edge) edge, INOUT(Touch) p, INOUT(Touch) q, INOUT(Touch) touch, OUT(bool) lowest) {
+  const int most_advances = 8;
+  vec3 from_p = p.point, drift_p = view.drift + cross(view.twist, from_p);
+  vec3 from_q = q.point, drift_q = view.drift + cross(view.twist, from_q);
+  float size = max(length(drift_p), length(drift_q)), near = view.field.cell, done = 0.0f;
+  for (int i = 0; i < most_advances; ++i) {
+    if (done > 0.0f) {
+      p = touch_at(view, from_p + done * drift_p);
+      q = touch_at(view, from_q + done * drift_q);
+    }
+    lowest = descend(view.field, p, q, touch);
+    if (!may_arrive(view, edge, p.distance, q.distance, (1.0f - done) * size)) break;
+    float gap = (lowest ? touch.distance : min(p.distance, q.distance)) - near;
+    if (gap <= 0.0f || gap >= (1.0f - done) * size) break;
+    done = min(done + max(gap, 0.25f * near) / size, 1.0f);
+  }
+  return done > 0.0f;
+}
+
+// Tests edge e between its ends `first` and `second`, and emits a candidate where it crosses an edge of the other part.
+// Returns whether offer() must be called for `touch`, the point of the edge that is, or will be, the deepest.
+INLINE bool touches_with_edge(IN(View) given, uint e, IN(Touch) first, IN(Touch) second, INOUT(Touch) touch) {
+  IN(Edge) edge = edge_at(given.samples, e);
+  View view = given;
+  Touch p = first, q = second;
+  bool lowest;
+  bool moved = arrive(view, edge, p, q, touch, lowest);
   for (int end = 0; end < 2; ++end) {
     if (!lowest) {
       touch = p;
@@ -279,11 +326,21 @@ INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, I
       if (!may_cross(view, edge, touch.distance)) continue;
     }
     bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch);
+    vec3 along = q.point - p.point;
+    float t = dot(touch.point - p.point, along) / dot(along, along);
+    crossed = crossed && (!moved || (t > END && t < 1.0f - END));
     if (!lowest && !crossed) continue;
-    if (touch.distance >= view.margin) return false;
+    vec3 present = touch.point;
+    if (moved)
+      present = first.point + t * (second.point - first.point);
+    else if (touch.distance >= view.margin)
+      return false;
+    view.ahead = touch.point - present;
     bool presses = crossed && press(view, touch.point, exit_of(OF_A_FACE, touch.gradient, touch.distance), edge.cone,
                                     e | SPHERE_EDGE);
-    return lowest && !presses;
+    if (!lowest || presses) return false;
+    if (moved) touch = touch_at(view, present);
+    return touch.distance < view.margin;
   }
   return false;
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -245,6 +246,25 @@ TEST(NarrowPhase, WhatHasNoWayBackIsNoContact) {
 }
 
 // Where coarse samples give way to fine ones, the same number is another point.
+// The contacts of a pair were all along the wall, and the part overlapped the other one by what it falls in a step.
+TEST(Choice, OfAPartThatFallsAlongAWallIncludesThePlaceWhereItLands) {
+  const float size = 0.05f;
+  Candidates candidates;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const Vec3f on_wall(0, 0.004f * static_cast<float>(i), 0.01f);
+    candidates.push_back({on_wall, on_wall, Vec3f::UnitX(), 0.0f, i});
+  }
+  const Vec3f below(0, 0.02f, 0);
+  candidates.push_back({below, below + Vec3f(0, 0, 0.002f), Vec3f::UnitZ(), 0.002f, 12});
+  const auto is_chosen = [&](float fall) {
+    std::vector<int> chosen;
+    reduce(candidates, {}, {Vec3f(0, 0, -fall), Vec3f::Zero()}, size, 0.003f, chosen);
+    return std::count(chosen.begin(), chosen.end(), 12) == 1;
+  };
+  EXPECT_TRUE(is_chosen(0.0025f));
+  EXPECT_FALSE(is_chosen(0.0015f));  // it does not land in this step
+}
+
 TEST(NarrowPhase, ForcesGoByPlaceWhereNumbersMeanOtherPoints) {
   Manifold old;
   old.contacts.resize(1);

@@ -85,6 +85,22 @@ bool recyclable(const World& world, const Manifold& m, const RelativePose& now, 
   return moved < limit && (moved <= fresh || !strikes(world, m, fresh));
 }
 
+/// Returns the motion of b, or of the ground if there is no b, relative to a in this step. Gravity is left out: it
+/// does not move parts that rest on each other, and of two parts in free fall it moves both.
+Approach approach_of(const World& world, const Body& a, const Body* b, const Placement& at_a, const Placement* at_b) {
+  const Mat3f back = world.settings.time_step * at_a.rotation.transpose();
+  Vec3f v = Vec3f::Zero(), w = Vec3f::Zero();
+  if (a.moves()) {
+    v = -a.v;
+    w = -a.w;
+  }
+  if (b && b->moves()) {
+    v += b->v + b->w.cross(at_a.x - at_b->x);
+    w += b->w;
+  }
+  return {back * v, back * w};
+}
+
 /// Contacts of one pair, found anew or recycled. Touches nothing but the manifold and the counters.
 void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   static thread_local Candidates candidates;
@@ -117,10 +133,11 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     const float soon = world.settings.soonest_first
                            ? SOON * size + std::max(0.0f, distance - world.settings.margin * size)
                            : std::numeric_limits<float>::infinity();
-    reduce(candidates, m, size, soon, chosen);
+    const Placement* at_b = there_b ? &*there_b : nullptr;
+    reduce(candidates, m, approach_of(world, a, b, there_a, at_b), size, soon, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
-    for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, there_b ? &*there_b : nullptr));
+    for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, at_b));
     carry_forces(m, fresh, world.samples(a).spacing);
     m.contacts.assign(fresh.begin(), fresh.end());
     m.found = true;

@@ -8,7 +8,8 @@
 
 namespace bin_scenes::sphere {
 
-void reduce(const Candidates& candidates, const Manifold& old, float size, float soon, std::vector<int>& chosen) {
+void reduce(const Candidates& candidates, const Manifold& old, const Approach& approach, float size, float soon,
+            std::vector<int>& chosen) {
   chosen.clear();
   if (candidates.empty()) return;
   BIN_SCENES_ASSERT(size > 0 && soon >= 0);
@@ -24,7 +25,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, float
     const Candidate& c = candidates[i];
     const auto same = [&](const Contact& o) { return o.feature == c.feature; };
     const bool known = old.found && std::any_of(old.contacts.begin(), old.contacts.end(), same);
-    const float gap = gap_of(c.separation, least);
+    const float gap = gap_of(approach, c.on_a, c.normal, c.separation, least, size);
     advantage[i] = advantage_of(c.separation, gap, known, size);
     worth[i] = worth_of(gap, soon, size);
   }
