@@ -81,11 +81,12 @@ void Lamps::sample_beam(const Beam& beam, double share, const Vec3& from, Sample
   if (pixel && beam.lens.inside(*pixel)) out.light = M_PI * beam.radiance / (share * out.distance * out.distance);
 }
 
-Lamps::Sample Lamps::sample(const Vec3& from, double choice, double u, double v) const {
+/// Each lamp has a part of the interval of u. Points that are even in the whole are even in the part as well.
+Lamps::Sample Lamps::sample(const Vec3& from, double u, double v) const {
   Sample out;
   std::size_t lamp = 0;
-  while (lamp + 1 < shares_.size() && choice >= shares_[lamp]) choice -= shares_[lamp++];
-  sample_one(lamp, shares_[lamp], from, u, v, out);
+  while (lamp + 1 < shares_.size() && u >= shares_[lamp]) u -= shares_[lamp++];
+  sample_one(lamp, shares_[lamp], from, std::min(u / shares_[lamp], 1.0), v, out);
   return out;
 }
 

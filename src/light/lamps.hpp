@@ -29,8 +29,8 @@ class Lamps {
     Rgb light = Rgb::Zero();  ///< radiance / density; 0: the lamp does not shine in that direction
     double density = 0.0;     ///< probability density (1/sr), choice of lamp included; 0: no ray can hit it
   };
-  /// Draws a point on a lamp. @param choice, u, v  random numbers in [0, 1): choice of the lamp, place on it
-  Sample sample(const Vec3& from, double choice, double u, double v) const;
+  /// Draws a lamp and a point on it. @param u, v  random numbers in [0, 1); u chooses the lamp as well
+  Sample sample(const Vec3& from, double u, double v) const;
 
   /// How met() weights a lamp that a ray hits, so that light that sample() finds as well is not counted twice.
   enum class Met {

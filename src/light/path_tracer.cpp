@@ -7,30 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace bin_scenes {
 
 namespace {
 
 constexpr std::size_t block_pixels = 64;
-/// Pairs of numbers: place in the pixel, blur, and for each surface a point of a lamp, a direction, and which lamp.
-enum Pair { place, blurred, first_surface };
-enum PairOfSurface { on_lamp, along_lobe, which_lamp, pairs_of_surface };
-constexpr int on_lens = first_surface + 3 * pairs_of_surface, all_pairs = on_lens + 1;
+/// What is drawn for a path: its place in the pixel, the blur, a point of the lens, and at each surface a point of a
+/// lamp and a direction.
+enum Decision { place, blurred, on_lens, first_surface };
+enum DecisionOfSurface { on_lamp, along_lobe, decisions_of_surface };
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-std::vector<std::array<std::uint32_t, 2>> sobol(int count) {
-  std::vector<std::array<std::uint32_t, 2>> points(static_cast<std::size_t>(count));
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    std::uint32_t x = 0, y = 0, a = 1u << 31, b = 1u << 31;
-    for (std::uint32_t bits = i; bits; bits >>= 1, a >>= 1, b ^= b >> 1) {
-      if (bits & 1u) x ^= a, y ^= b;
-    }
-    points[i] = {x, y};
-  }
-  return points;
-}
 
 Rgb in_colour(const Surface& surface, double matte, double mirrored) {
   const Rgb colour = surface.colour.array();
@@ -54,8 +43,8 @@ Surfaces softened(Surfaces surfaces, double soft) {
 /// A row of pixels, and what all their paths see first.
 struct PathTracer::Row {
   std::size_t index = 0;
-  std::vector<std::array<Scramble, all_pairs>> scrambles;  // by pixel
-  std::vector<Spot> spots;                                 // by pixel and sample
+  EvenPoints::Row points;
+  std::vector<Spot> spots;  // by pixel and sample
   bool drawn = false;
 };
 
@@ -72,9 +61,10 @@ struct PathTracer::Block {
     Rgb light;
   };
   std::vector<Asked> asked;
+  std::vector<Ray> asked_rays;
   struct Followed {
     const Vertex* from;
-    bool mirrors, onward;
+    bool mirrors;
     Lobe::Sample sample;
     Rgb weight;
   };
@@ -92,18 +82,15 @@ PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pos
       soft_(softened(surfaces, setup.soft)),
       lamps_(lamps),
       setup_(setup),
-      key_(key),
-      follow_(static_cast<std::uint32_t>(std::max(setup.samples / 2, 1))),
-      onward_(static_cast<std::uint32_t>(std::max(setup.samples / 4, 1))),
-      ask_from_(static_cast<std::uint32_t>(setup.samples) - follow_),
-      spots_(scenery, lens, pose, setup.near, setup.far),
-      net_(sobol(setup.samples)) {}
+      points_(key, first_surface + (setup.bounces + 1) * decisions_of_surface),
+      spots_(scenery, lens, pose, setup.near, setup.far) {}
 
 std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
   const auto width = static_cast<std::size_t>(lens_.width);
   thread_local Row row;  // both keep their memory
   thread_local Block block;
-  begin(row, index);
+  row.index = index;
+  points_.begin(row.points, index, width);
   see(row);
   std::vector<Rgb> radiance;
   radiance.reserve(width);
@@ -111,10 +98,7 @@ std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
     begin(block, row, first, std::min(block_pixels, width - first));
     add_seen(block);
     for (std::size_t i = 0; grain && i < block.radiance.size(); ++i) grain[first + i].sides = sides_of(block, i);
-    for (int bounce = 0; bounce <= setup_.bounces && !block.vertices.empty(); ++bounce) {
-      ask_lamps(block, bounce);
-      follow_lobes(block, bounce);
-    }
+    for (int bounce = 0; bounce <= setup_.bounces && !block.vertices.empty(); ++bounce) leave(block, bounce);
     for (const auto& [even, odd] : block.radiance) {
       if (grain)
         grain[radiance.size()].variance = static_cast<float>(std::pow((even - odd).mean() / setup_.samples, 2));
@@ -124,33 +108,17 @@ std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
   return radiance;
 }
 
-void PathTracer::begin(Row& row, std::size_t index) const {
-  row.index = index;
-  row.scrambles.resize(static_cast<std::size_t>(lens_.width));
-  for (std::size_t i = 0; i < row.scrambles.size(); ++i) {
-    Random random = key_.of_piece(index * row.scrambles.size() + i);
-    for (Scramble& scramble : row.scrambles[i]) {
-      const std::uint64_t both = random.next();
-      scramble.x = static_cast<std::uint32_t>(both), scramble.y = static_cast<std::uint32_t>(both >> 32);
-      scramble.order = static_cast<std::uint32_t>(random.below(static_cast<std::uint64_t>(setup_.samples)));
-    }
-  }
+Eigen::Vector2d PathTracer::drawn(const Row& row, std::size_t column, int decision, std::uint32_t sample) const {
+  return row.points.at(column, decision, sample, static_cast<std::uint32_t>(setup_.samples));
 }
 
-/// The points of a pixel in an order of its own: the same net, and so are its first quarter and any other.
-Eigen::Vector2d PathTracer::drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const {
-  const Scramble& scramble = row.scrambles[column][static_cast<std::size_t>(pair)];
-  const auto& point = net_[sample ^ scramble.order];
-  return {(point[0] ^ scramble.x) * 0x1p-32, (point[1] ^ scramble.y) * 0x1p-32};
-}
-
-Eigen::Vector2d PathTracer::drawn(const Block& block, const Vertex& vertex, int pair) const {
-  return drawn(*block.row, block.first + vertex.pixel, pair, vertex.sample);
+Eigen::Vector2d PathTracer::drawn(const Block& block, const Vertex& vertex, int decision) const {
+  return drawn(*block.row, block.first + vertex.pixel, decision, vertex.sample);
 }
 
 void PathTracer::see(Row& row) const {
   row.spots.clear();
-  for (std::size_t column = 0; column < row.scrambles.size(); ++column) {
+  for (std::size_t column = 0; column < static_cast<std::size_t>(lens_.width); ++column) {
     for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(setup_.samples); ++s) {
       Eigen::Vector2d at = drawn(row, column, place, s) - Eigen::Vector2d(0.5, 0.5);
       if (setup_.blur > 0.0) {
@@ -264,33 +232,38 @@ const Surface& PathTracer::surface_of(const Vertex& vertex, int bounce, Surface&
   return (bounce == 0 ? surfaces_ : soft_).at(vertex.line, vertex.label, vertex.position, own);
 }
 
-void PathTracer::ask_lamps(Block& block, int bounce) const {
-  if (!lamps_.any_sampled()) return;
-  block.rays.clear();
-  block.asked.clear();
-  const int pairs = first_surface + bounce * pairs_of_surface;
-  const double times = bounce == 0 ? static_cast<double>(setup_.samples) / (setup_.samples - ask_from_) : 1.0;
+/// Rays to lamps and along lobes, from all surfaces that the paths have reached.
+void PathTracer::leave(Block& block, int bounce) const {
+  block.asked.clear(), block.asked_rays.clear();
+  block.followed.clear(), block.rays.clear();
+  block.outward.clear(), block.outward_rays.clear();
   for (const Vertex& v : block.vertices) {
-    if (!asks(v, bounce)) continue;
-    const Eigen::Vector2d at = drawn(block, v, pairs + on_lamp);
-    const double choice = drawn(block, v, pairs + which_lamp).x();
-    const Lamps::Sample lamp = lamps_.sample(v.position, choice, at.x(), at.y());
-    if (!(v.face.dot(lamp.direction) > 0.0 && (lamp.light > 0.0).any())) continue;
     Surface own;
     const Surface& surface = surface_of(v, bounce, own);
-    const SentBack sent = sent_back(surface, v.normal, lamp.direction, v.to_eye);
-    if (!(sent.matte + sent.mirrored > 0.0)) continue;
-    double share = 1.0;
-    if (lamp.density > 0.0 && setup_.by == Setup::By::lobe) continue;
-    if (lamp.density > 0.0 && setup_.by == Setup::By::both && mirrors(surface, bounce))
-      share = lamp.density / (lamp.density + Lobe(surface, v.normal, v.to_eye).density_of(lamp.direction));
-    const Rgb light = v.weight * lamp.light * in_colour(surface, sent.matte, sent.mirrored) * (times * share / M_PI);
-    block.asked.push_back({v.pixel, v.sample % 2, light});
-    block.rays.push_back(ray_between(v.position, v.face, v.position + lamp.distance * lamp.direction));
+    std::optional<Lobe> lobe;
+    if (bounce < setup_.bounces || lamps_.any_met(weight_of(mirrors(surface, bounce))))
+      lobe.emplace(surface, v.normal, v.to_eye);
+    if (lamps_.any_sampled()) ask_lamp(block, v, surface, lobe ? &*lobe : nullptr, bounce);
+    if (lobe) follow(block, v, surface, *lobe, bounce);
   }
-  find_blocked(block.rays, block.blocked, bounce == 0 ? Scenery::Rays::side_by_side : Scenery::Rays::scattered);
-  for (std::size_t i = 0; i < block.asked.size(); ++i)
-    if (!block.blocked[i]) block.radiance[block.asked[i].pixel][block.asked[i].half] += block.asked[i].light;
+  find_lit(block, bounce);
+  find_ends(block);
+}
+
+/// @param lobe  of the surface; null: no ray along it can meet the lamps that points are drawn on
+void PathTracer::ask_lamp(Block& block, const Vertex& v, const Surface& surface, const Lobe* lobe, int bounce) const {
+  const Eigen::Vector2d at = drawn(block, v, first_surface + bounce * decisions_of_surface + on_lamp);
+  const Lamps::Sample lamp = lamps_.sample(v.position, at.x(), at.y());
+  if (!(v.face.dot(lamp.direction) > 0.0 && (lamp.light > 0.0).any())) return;
+  const SentBack sent = sent_back(surface, v.normal, lamp.direction, v.to_eye);
+  if (!(sent.matte + sent.mirrored > 0.0)) return;
+  double share = 1.0;
+  if (lamp.density > 0.0 && setup_.by == Setup::By::lobe) return;
+  if (lamp.density > 0.0 && setup_.by == Setup::By::both && mirrors(surface, bounce))
+    share = lamp.density / (lamp.density + lobe->density_of(lamp.direction));
+  const Rgb light = v.weight * lamp.light * in_colour(surface, sent.matte, sent.mirrored) * (share / M_PI);
+  block.asked.push_back({v.pixel, v.sample % 2, light});
+  block.asked_rays.push_back(ray_between(v.position, v.face, v.position + lamp.distance * lamp.direction));
 }
 
 /// Of lamps that a ray meets which left along a lobe.
@@ -299,37 +272,29 @@ Lamps::Met PathTracer::weight_of(bool mirrors) const {
   return mirrors && setup_.by == Setup::By::both ? Lamps::Met::shared : Lamps::Met::unsampled;
 }
 
-void PathTracer::follow_lobes(Block& block, int bounce) const {
-  const bool more = bounce < setup_.bounces;
-  const int pair = first_surface + bounce * pairs_of_surface + along_lobe;
-  const double times = bounce == 0 ? static_cast<double>(setup_.samples) / follow_ : 1.0;
-  block.rays.clear(), block.followed.clear();
-  block.outward_rays.clear(), block.outward.clear();
-  for (const Vertex& v : block.vertices) {
-    if (!follows(v, bounce)) continue;
-    const bool onward = more && v.sample < onward_;
-    Surface own;
-    const Surface& surface = surface_of(v, bounce, own);
-    const bool mirrors = this->mirrors(surface, bounce);
-    const Lamps::Met weight = weight_of(mirrors);
-    if (!onward && !lamps_.any_met(weight)) continue;
-    const Eigen::Vector2d at = drawn(block, v, pair);
-    const Lobe::Sample sample = Lobe(surface, v.normal, v.to_eye).at(at.x(), at.y());
-    if (!(sample.factor > 0.0 && v.face.dot(sample.direction) > 0.0)) continue;
-    const Ray ray = ray_along(v.position, v.face, sample.direction);
-    const bool lamp_ahead = lamps_.flat_ahead(ray.origin, ray.direction, weight);
-    if (!onward && !lamp_ahead && !lamps_.any_behind_all(weight)) continue;
-    const Rgb path = times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte);
-    const bool hits = onward || lamp_ahead;
-    (hits ? block.followed : block.outward).push_back({&v, mirrors, onward, sample, path});
-    (hits ? block.rays : block.outward_rays).push_back(ray);
-  }
-  find_ends(block, bounce == 0 ? static_cast<double>(follow_) / onward_ : 1.0);
+void PathTracer::follow(Block& block, const Vertex& v, const Surface& surface, const Lobe& lobe, int bounce) const {
+  const Eigen::Vector2d at = drawn(block, v, first_surface + bounce * decisions_of_surface + along_lobe);
+  const Lobe::Sample sample = lobe.at(at.x(), at.y());
+  if (!(sample.factor > 0.0 && v.face.dot(sample.direction) > 0.0)) return;
+  const Ray ray = ray_along(v.position, v.face, sample.direction);
+  const bool mirrors = this->mirrors(surface, bounce);
+  const Lamps::Met weight = weight_of(mirrors);
+  const bool hits = bounce < setup_.bounces || lamps_.flat_ahead(ray.origin, ray.direction, weight);
+  if (!hits && !lamps_.any_behind_all(weight)) return;
+  const Rgb path = v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte);
+  (hits ? block.followed : block.outward).push_back({&v, mirrors, sample, path});
+  (hits ? block.rays : block.outward_rays).push_back(ray);
+}
+
+/// The light of those lamps that nothing blocks.
+void PathTracer::find_lit(Block& block, int bounce) const {
+  find_blocked(block.asked_rays, block.blocked, bounce == 0 ? Scenery::Rays::side_by_side : Scenery::Rays::scattered);
+  for (std::size_t i = 0; i < block.asked.size(); ++i)
+    if (!block.blocked[i]) block.radiance[block.asked[i].pixel][block.asked[i].half] += block.asked[i].light;
 }
 
 /// Where paths end that follow lobes: the lamps that they meet there, and the surfaces from which they go on.
-/// @param times  how much more those count that go on
-void PathTracer::find_ends(Block& block, double times) const {
+void PathTracer::find_ends(Block& block) const {
   const auto add = [&](const Block::Followed& path, const Ray& ray, double reach) {
     block.radiance[path.from->pixel][path.from->sample % 2] +=
         path.weight * lamps_.met(ray.origin, ray.direction, reach, weight_of(path.mirrors), path.sample.density);
@@ -344,10 +309,9 @@ void PathTracer::find_ends(Block& block, double times) const {
     const Block::Followed& path = block.followed[i];
     const double reach = block.hits[i].distance;
     add(path, block.rays[i], std::isnan(reach) ? infinite : reach);
-    if (!path.onward) continue;
     Vertex vertex = *path.from;
     vertex.to_eye = -path.sample.direction;
-    vertex.weight = times * path.weight;
+    vertex.weight = path.weight;
     add_vertex(block.next, block.rays[i], block.hits[i], vertex);
   }
   std::swap(block.vertices, block.next);

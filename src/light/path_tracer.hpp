@@ -7,14 +7,14 @@
 /// via two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and
 /// robust light transport").
 ///
-/// The random points are distributed evenly (Sobol points, scrambled by a key of the pixel). At the surface that a
-/// pixel sees, half of its paths sample a point on a lamp, and the others follow the lobe. Half of the latter continue
-/// to further surfaces, where each path does both. Contributions of a half and of a quarter of the paths count two and
-/// four times. Few paths suffice there, as that light varies slowly.
+/// At each surface, a path does both. The random points are distributed evenly over the paths of a pixel and of its
+/// neighbours (even_points.hpp). Most of the noise of a heap comes from light that bounces, so that all paths of a
+/// pixel continue to further surfaces.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
 #include "light/bevel.hpp"
+#include "light/even_points.hpp"
 #include "light/illumination.hpp"
 #include "light/lamps.hpp"
 #include "light/lobe.hpp"
@@ -53,7 +53,9 @@ class PathTracer {
   };
   /// The uncertainty of the radiance of a pixel.
   struct Grain {
-    float variance = 0.0f;  ///< variance of the mean of red, green and blue, estimated from the two halves of the paths
+    /// Variance of the mean of red, green and blue if the paths were independent, estimated from the difference of two
+    /// halves of them. Even points err by less, by an amount that the paths of one pixel do not show.
+    float variance = 0.0f;
     std::array<Side, 2> sides = {};  ///< the first two sides that paths see; shares of further sides are missing
     bool one_face() const { return sides[0].share == 1.0f; }
   };
@@ -70,9 +72,6 @@ class PathTracer {
     std::uint32_t pixel = 0, sample = 0;  ///< index of the pixel in the block, and of the sample in the pixel
     Rgb weight = Rgb::Ones();
   };
-  struct Scramble {
-    std::uint32_t order, x, y;
-  };
   struct Row;
   struct Block;
 
@@ -81,18 +80,17 @@ class PathTracer {
   bool mirrors(const Surface& surface, int bounce) const {
     return surface.gloss > 0.0 && (bounce == 0 || setup_.soft < 0.5);
   }
-  bool asks(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample >= ask_from_; }
-  bool follows(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample < follow_; }
-  Eigen::Vector2d drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const;
-  Eigen::Vector2d drawn(const Block& block, const Vertex& vertex, int pair) const;
-  void begin(Row& row, std::size_t index) const;
+  Eigen::Vector2d drawn(const Row& row, std::size_t column, int decision, std::uint32_t sample) const;
+  Eigen::Vector2d drawn(const Block& block, const Vertex& vertex, int decision) const;
   void see(Row& row) const;
   void begin(Block& block, const Row& row, std::size_t first, std::size_t count) const;
   void add_seen(Block& block) const;
   std::array<Side, 2> sides_of(const Block& block, std::size_t pixel) const;
-  void ask_lamps(Block& block, int bounce) const;
-  void follow_lobes(Block& block, int bounce) const;
-  void find_ends(Block& block, double times) const;
+  void leave(Block& block, int bounce) const;
+  void ask_lamp(Block& block, const Vertex& vertex, const Surface& surface, const Lobe* lobe, int bounce) const;
+  void follow(Block& block, const Vertex& vertex, const Surface& surface, const Lobe& lobe, int bounce) const;
+  void find_lit(Block& block, int bounce) const;
+  void find_ends(Block& block) const;
   Lamps::Met weight_of(bool mirrors) const;
   void find_blocked(const std::vector<Ray>& rays, std::vector<std::uint8_t>& blocked, Scenery::Rays kind) const;
   Ray ray_of(const Row& row, std::size_t column, std::uint32_t sample) const;
@@ -106,12 +104,8 @@ class PathTracer {
   Surfaces soft_;  ///< surfaces with at least the roughness Setup::soft, for hits that the camera does not see
   const Lamps& lamps_;
   Setup setup_;
-  Random key_;
-  /// At the visible surface, the first follow_ paths of a pixel follow the lobe, the first onward_ of these continue to
-  /// further surfaces, and the paths from ask_from_ on sample points on lamps.
-  std::uint32_t follow_, onward_, ask_from_;
+  EvenPoints points_;
   SpotDrawing spots_;
-  std::vector<std::array<std::uint32_t, 2>> net_;  ///< Sobol points of the unit square, times 2^32
 };
 
 }  // namespace bin_scenes

@@ -11,7 +11,7 @@ namespace bin_scenes {
 /// All settings of the model. The struct is stored in Sensor::settings.
 struct ImageSettings {
   std::vector<ImageLamp> lamps;  ///< empty: the light is one dome
-  int samples = 16;              ///< number of light paths per pixel, a power of two; the cost is proportional to it
+  int samples = 8;               ///< number of light paths per pixel, a power of two; the cost is proportional to it
   bool denoise = false;          ///< whether Monte Carlo noise at low sample counts is removed
   bool colour = false;           ///< whether pictures have red, green and blue instead of grey
   int bits = 8;                  ///< bits per count in files and messages, 8 or 16

@@ -53,7 +53,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
           s.bits);
 }
 
-/// Paths of one image, some 3 million of which a core traces a second.
+/// Paths of one image, some 0.6 million of which a core traces a second.
 constexpr double most_paths = 4e9;
 
 void check_picture(const ImageLamp& lamp, const std::string& key) {

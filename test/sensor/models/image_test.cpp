@@ -80,7 +80,7 @@ TEST(Image, RectangleAndDiskOverAPlate) {
   for (const auto& [lamp, factor] : cases) {
     for (const By by : {By::both, By::lamps, By::lobe}) {
       Targets targets = plate({0.6, 0.0, 0.4});
-      const Mean seen = radiance(targets, camera({lamp}), 256, 0, by);
+      const Mean seen = radiance(targets, camera({lamp}, 9, 9, 0.002), 256, 0, by);
       EXPECT_NEAR(seen.value, 0.6 * factor, 4.0 * seen.error + 2e-4 * factor) << static_cast<int>(by);
       EXPECT_LT(seen.error, 0.005 * factor);
     }
@@ -138,6 +138,20 @@ TEST(Image, WaysToFindLampsAgree) {
       }
     }
   }
+}
+
+/// Which lamp a path asks says nothing about where on it: two halves of a lamp leave as much noise as the whole.
+TEST(Image, HalvesOfALampLeaveTheNoiseOfTheWhole) {
+  const auto lamp = [](double middle, double width) {
+    ImageLamp area = flat(ImageLamp::Type::area, {middle, 0.0, 0.6});
+    area.width = width, area.height = 1.0;
+    return area;
+  };
+  Targets targets = plate({0.6, 0.0, 0.4});
+  const Mean whole = radiance(targets, camera({lamp(0.0, 1.0)}, 32, 32), 64, 0, By::lamps);
+  const Mean halves = radiance(targets, camera({lamp(-0.25, 0.5), lamp(0.25, 0.5)}, 32, 32), 64, 0, By::lamps);
+  EXPECT_NEAR(halves.value, whole.value, 0.01 * whole.value);
+  EXPECT_LT(halves.error, 1.2 * whole.error);
 }
 
 /// A lens that distorts by nothing to speak of has its first hits by rays.
