@@ -73,13 +73,6 @@ TEST(Tips, OfAllSpikesPressInTheDirectionsOfEachFace) {
   }
 }
 
-// The teeth of a gear had no nodes between their ends, and passed through other teeth.
-TEST(Edges, HaveNoLongPiecesHoweverFewTheSamplesAre) {
-  const PartModelPtr block = PartModel::from_mesh(box_mesh(Vec3(0.06, 0.04, 0.02)), "block");
-  const sphere::Shape shape = sphere::make_shape(*block, 8, 200, 0.02);
-  for (const sphere::Edge& edge : shape.coarse.edges) EXPECT_LT(edge.length, 0.1001 * block->diagonal());
-}
-
 TEST(Wall, OfASlenderPartIsHowThickItIs) {
   const double radius = 1e-3;
   const PartModelPtr pin = PartModel::from_mesh(prism_mesh(radius, 0.06, 64), "pin");

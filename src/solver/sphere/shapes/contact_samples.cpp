@@ -110,10 +110,7 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
     if (last || sharp.convex.size() <= static_cast<std::size_t>(2 * count)) break;
   }
   const double edge_length = sharp_length(mesh, folds, sharp_angle);
-  // The field of another part with teeth has several deepest points along a longer piece, of which one is found.
-  constexpr double longest_piece = 0.1;  // of d
-  const double spacing =
-      std::min(std::max(edge_length / (edge_share * count), 0.004 * part.diagonal()), longest_piece * part.diagonal());
+  const double spacing = std::max(edge_length / (edge_share * count), 0.004 * part.diagonal());
   Draft draft = edge_draft(mesh, sharp, spacing);
   // Some of these fall on edges that have their nodes.
   const int faces = 2 * std::max(count / 2, count - static_cast<int>(draft.nodes.size()));

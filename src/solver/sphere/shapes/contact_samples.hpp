@@ -71,7 +71,7 @@ Samples ball_samples(float radius);
 
 /// Version of the samples in cache files. Increase it whenever make_samples() returns other samples for the same part,
 /// so that older files are ignored.
-constexpr int samples_format = 11;
+constexpr int samples_format = 10;
 
 /// Lists the members for byte streams (core/byte_stream.hpp).
 template <class Stream>
