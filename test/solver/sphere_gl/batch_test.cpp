@@ -114,7 +114,7 @@ TEST(SphereGlBatch, AStepThatIsRepeatedForRowsHasTheSameColors) {
 TEST(SphereGlBatch, AListThatMayNotGrowIsFilledSeveralTimes) {
   Capacity small;
   small.candidates = 1;
-  small.most_candidates = 120;  // no pair has as many
+  small.most_candidates = 200;  // no pair has as many: a pair that had more would never find room
   const auto solver = make_gl_sphere_solver(coarse(), small);
   const WorldId one = Handful(1).add(*solver), two = Handful(2).add(*solver);
   for (int k = 0; k < 2; ++k) solver->advance({one, two}, 0.1);
