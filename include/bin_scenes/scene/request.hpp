@@ -121,8 +121,8 @@ struct Pour {
   Pattern pattern = Pattern::rain;
   /// How much is done before a scene counts as finished. Each value includes the ones before it and takes more time.
   enum class Finish {
-    settled,  ///< parts came to rest on soft contacts, and rested again after the contact forces were forgotten once
-    pressed,  ///< before that, stiff contacts have removed the overlap
+    settled,  ///< parts rest on soft contacts and overlap by up to 0.1 % of their diagonal
+    pressed,  ///< stiff contacts have removed the overlap
     probed    ///< the heap stayed at rest on contacts without remembered forces and with less friction, so that no part
               ///< is about to tip or slip
   };
