@@ -24,9 +24,10 @@ bool alike(Word a, Word b) {
 }
 
 /// Words that may be other than on the device, of those that a pass changes: where two candidates are as good, rounding
-/// chooses.
+/// chooses, and it decides whether a contact at the limit of friction slides, which changes the forces (3 words) of all
+/// 8 contacts of its pair.
 std::size_t most_ties(std::size_t changed) {
-  return 8 + changed / 10;
+  return 24 + changed / 10;
 }
 
 /// Lists of what invocations came upon, in the order of arrival, and the chains that lie in the jobs; and of two edges
