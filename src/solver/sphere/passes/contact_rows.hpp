@@ -47,6 +47,7 @@ struct ContactRows {
   Lanes normal_mass{}, tangent_mass{};                 ///< effective masses (kg)
   Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< impulses of one sub-step (N s)
   Lanes separation{};                                  ///< distance when contacts were found (m)
+  LaneMask waits{};            ///< takes no impulse in relaxation
   Lanes approach{};            ///< relative speed when both meet, if they do in this step (m/s); negative = closing
   Lanes lasting{};             ///< normal impulse at the start of the sub-step (N s)
   Lanes max_impulse{}, gap{};  ///< largest normal impulse (N s); distance when last computed (m)

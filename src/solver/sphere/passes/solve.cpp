@@ -111,7 +111,9 @@ class ContactSolver {
   };
   Swept begin(const Bundle& bundle, bool push, bool first);
   float speed(std::size_t body) const;
+  LaneMask pressing(const Bundle& bundle) const;  ///< manifolds with a contact that presses
   void observe_gaps(const Bundle& bundle);
+  void let_wait(const Bundle& bundle);
   void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const;
 
   World& world_;
@@ -128,6 +130,7 @@ class ContactSolver {
   float tolerance_;            ///< m/s
   bool friction_holds_ = true;
   bool impact_ = false;    ///< some contact closes fast
+  bool meet_ = false;      ///< of two bodies that did not press on each other before
   bool unshared_ = false;  ///< an impact is, in this sub-step
   std::uint64_t unresolved_ = 0;
   std::vector<Motion>& motions_;
@@ -159,6 +162,7 @@ void ContactSolver::prepare() {
   for_each_bundle([&](Bundle& bundle) { sphere::prepare(world_, motions_, h_, bundle, rows_); });
   for (const Bundle& bundle : bundles_) {
     impact_ = impact_ || any(bundle.strikes);
+    meet_ = meet_ || any(bundle.strikes & ~pressing(bundle));
     for (int lane = 0; lane < bundle.lanes; ++lane)
       for (const std::uint32_t i : {bundle.a[lane], bundle.b[lane]})
         if (i < free_.size()) free_[i] = 0;
@@ -210,6 +214,7 @@ void ContactSolver::warm_start(std::uint32_t first, std::uint32_t last) {
 void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const {
   const Lanes before = c.normal_impulse;
   c.normal_impulse = normal_impulse(before, u.along_normal(c), c.gap, c.normal_mass, give);
+  if (&give == &firmly_) c.normal_impulse = select(c.waits, before, c.normal_impulse);
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
   const Lanes more = c.normal_impulse - before;
   if (shares_impacts_) unconverged |= is_unconverged(more, c.normal_mass, tolerance_);
@@ -222,10 +227,25 @@ void ContactSolver::observe_gaps(const Bundle& bundle) {
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + moved.along(rows_[i]);
 }
 
+LaneMask ContactSolver::pressing(const Bundle& bundle) const {
+  LaneMask out{};
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) out |= rows_[i].normal_impulse > 0.0f;
+  return out;
+}
+
+/// What a rolling body comes down on next takes no impulse until the sub-step in which it does: it would be stopped
+/// there twice, and lose the energy of two corners. In an impact, all contacts share at once.
+void ContactSolver::let_wait(const Bundle& bundle) {
+  const LaneMask rolls = meet_ ? LaneMask{} : pressing(bundle);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
+    rows_[i].waits = rolls & (rows_[i].gap > 0.0f) & (rows_[i].normal_impulse <= 0.0f);
+}
+
 /// What a sweep begins a bundle with.
 ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
   Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
   if (first && (!push || !settings_.relaxation)) observe_gaps(bundle);
+  if (first && !push) let_wait(bundle);
   const Lanes radius = all_lanes(settings_.patch_radius * world_.smallest_size);
   if (push && first) resist_turn(bundle, rows_, radius, swept.friction, swept.u);
   return swept;
