@@ -234,11 +234,19 @@ LaneMask ContactSolver::pressing(const Bundle& bundle) const {
 }
 
 /// What a rolling body comes down on next takes no impulse until the sub-step in which it does: it would be stopped
-/// there twice, and lose the energy of two corners. In an impact, all contacts share at once.
+/// there twice, and lose the energy of two corners. In an impact, all contacts share at once; and what is held from
+/// several sides does not roll.
 void ContactSolver::let_wait(const Bundle& bundle) {
-  const LaneMask rolls = meet_ ? LaneMask{} : pressing(bundle);
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
-    rows_[i].waits = rolls & (rows_[i].gap > 0.0f) & (rows_[i].normal_impulse <= 0.0f);
+  Lanes force{};
+  LaneVec push{};
+  for (std::uint32_t i = bundle.first; i < bundle.last && !meet_; ++i) {
+    force += rows_[i].normal_impulse;
+    push = push + rows_[i].normal_impulse * rows_[i].normal;
+  }
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    ContactRows& c = rows_[i];
+    c.waits = (c.gap > 0.0f) & (c.normal_impulse <= 0.0f) & (dot(c.normal, push) > 0.9f * force);
+  }
 }
 
 /// What a sweep begins a bundle with.
