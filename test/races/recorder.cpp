@@ -24,10 +24,10 @@ bool alike(Word a, Word b) {
 }
 
 /// Words that may be other than on the device, of those that a pass changes: where two candidates are as good, rounding
-/// chooses, and it decides whether a contact at the limit of friction slides, which changes the forces (3 words) of all
-/// 8 contacts of its pair.
-std::size_t most_ties(std::size_t changed) {
-  return 24 + changed / 10;
+/// chooses. In solve, rounding also decides whether a contact at the limit of friction slides, which changes the forces
+/// (3 words) of all 8 contacts of its pair.
+std::size_t most_ties(const std::string& pass, std::size_t changed) {
+  return (pass == "solve" ? 24 : 8) + changed / 10;
 }
 
 /// Lists of what invocations came upon, in the order of arrival, and the chains that lie in the jobs; and of two edges
@@ -139,7 +139,7 @@ void Recorder::compare(const Record& record, const std::vector<Memory>& first, c
         if (others++ == 0) example = w;
       }
     }
-    if (others > most_ties(changed))
+    if (others > most_ties(pass.name, changed))
       add(pass.name + ": " + first[k].name + " is other than on the device in " + std::to_string(others) + " of " +
           std::to_string(changed) + " changed words (" + std::to_string(free) + " by order), as " +
           std::to_string(example) + ": " + std::to_string(as_float(first[k].words[example])) + " for " +
