@@ -77,6 +77,13 @@ struct Image {
   std::vector<float> variance;
 };
 
+/// How far light that lies `apart` from that of a pixel may replace it: 1 where they are equal, 0 where they differ by
+/// more than noise of this variance explains.
+float close(float apart, float variance) {
+  const float share = std::max(1.0f - apart * apart / std::max(grain * grain * variance, 1e-30f), 0.0f);
+  return share * share;
+}
+
 /// One pass. @param by_light  false: only variance is averaged, whatever the light
 void average(const Faces& faces, int step, bool by_light, const Image& from, Image& to) {
   in_parallel(static_cast<std::size_t>(faces.height()), [&](std::size_t row) {
@@ -97,10 +104,7 @@ void average(const Faces& faces, int step, bool by_light, const Image& from, Ima
           if (weight <= 0.0f) continue;
           if (by_light) {
             const float apart = from.light[k].mean() - from.light[i].mean();
-            const float most = grain * grain * (from.variance[i] + from.variance[k]);
-            const float close = k == i ? 1.0f : 1.0f - apart * apart / std::max(most, 1e-30f);
-            if (close <= 0.0f) continue;
-            weight *= close * close;
+            if (k != i) weight *= close(apart, from.variance[i] + from.variance[k]);
           }
           weights += weight;
           light += weight * from.light[k];
@@ -111,6 +115,15 @@ void average(const Faces& faces, int step, bool by_light, const Image& from, Ima
       if (by_light) to.light[i] = light / weights;
     }
   });
+}
+
+/// Mean of the pixels around, because the difference of two halves of the paths says little about a single pixel.
+float variance_around(const Faces& faces, int x, int y, const std::vector<float>& variance) {
+  float sum = 0.0f, count = 0.0f;
+  for (int v = std::max(y - 2, 0); v <= std::min(y + 2, faces.height() - 1); ++v)
+    for (int u = std::max(x - 2, 0); u <= std::min(x + 2, faces.width() - 1); ++u)
+      sum += variance[faces.at(u, v)], count += 1.0f;
+  return sum / count;
 }
 
 /// Light of a pixel across which faces meet: that of each on the pixels around that see it alone, by its share.
@@ -157,8 +170,11 @@ void denoise(const View& view, const std::vector<PathTracer::Grain>& grain, std:
       Eigen::Array3f mixed;
       if (faces.whole(i))
         radiance[i] = image.light[i].cast<double>();
-      else if (mix(faces, x, static_cast<int>(row), grain[i], image, mixed))
-        radiance[i] = mixed.cast<double>();
+      else if (const int y = static_cast<int>(row); mix(faces, x, y, grain[i], image, mixed)) {
+        // A small facet of polished metal may have no like beside it: there, the pixel's own light is the better one.
+        const float share = close(mixed.mean() - image.light[i].mean(), variance_around(faces, x, y, own));
+        radiance[i] = ((1.0f - share) * image.light[i] + share * mixed).cast<double>();
+      }
     }
   });
 }
