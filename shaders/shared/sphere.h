@@ -333,7 +333,8 @@ struct SphereContact {
 struct SphereOrdered {
   uint bodies;       // a | b << 16, counted within the world; b may be SPHERE_GROUND_BODY
   uint row;          // index of the first row of the manifold within the rows of the world, counted in vec4
-  uint kind;         // flags | number of contacts << 8 | stride << 12 | a bit for each contact that may press << 24
+  uint kind;         // flags | number of contacts << 8 | stride << 12 | a bit for each contact that may press << 24; the
+                     // bits of contacts that wait in relaxation lie between (sphere/ordered.h)
   float slack;       // m, lower bound of the gaps of the contacts that cannot press
   float arm;         // m, longest lever arm of a contact of the manifold
   float friction;    // coefficient of friction of the pair, without SphereProgress.friction_share

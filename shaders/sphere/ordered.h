@@ -11,6 +11,11 @@ uint pack_kind(uint flags, uint count, uint stride, uint near) { return flags | 
 uint count_of(uint kind) { return kind >> 8 & 0xfu; }
 uint stride_of(uint kind) { return kind >> 12 & 0x3fu; }
 uint near_of(uint kind) { return kind >> 24; }
+// The bits of contacts that wait in relaxation: four at bit 4, and four at bit 18.
+uint waiting_of(uint kind) { return kind >> 4 & 0xfu | kind >> 14 & 0xf0u; }
+uint with_waiting(uint kind, uint waiting) {
+  return kind & 0xffc3ff0fu | (waiting & 0xfu) << 4 | (waiting & 0xf0u) << 14;
+}
 uint with_near(uint kind, uint near) { return kind & 0xffffffu | near << 24; }
 uint all_of(uint count) { return (1u << count) - 1u; }
 

@@ -26,13 +26,14 @@ shared vec4 spin[SPHERE_MAX_BODIES + 1];      // w: 1 = a contact is near
 shared vec4 moved[SPHERE_MAX_BODIES + 1];     // since contacts were found; w: speed when the sub-step began
 shared vec4 turned[SPHERE_MAX_BODIES + 1];    // rotation vector, since then; w: 1 = a contact slips
 shared uint starts[SPHERE_COLORS + 1];
-shared uint any_bounce, any_impact;
+shared uint any_bounce, any_impact, any_meeting;
 shared uint some_unconverged[2];  // a contact is; take turns
 
 #define velocity_of(i) velocity[i]
 #define spin_of(i) spin[i]
 #define moved_of(i) moved[i]
 #define turned_of(i) turned[i]
+#define any_meets() (any_meeting != 0u)
 #include "sphere/body.h"
 #include "sphere/solve_body.h"
 #include "sphere/solve_manifold.h"
@@ -153,14 +154,18 @@ void main() {
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_WORLD_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
   if (gl_LocalInvocationIndex < 2u) some_unconverged[gl_LocalInvocationIndex] = 0u;
-  if (gl_LocalInvocationIndex == 0u) any_impact = 0u;
+  if (gl_LocalInvocationIndex == 0u) any_impact = any_meeting = 0u;
   FOR_OWN_BODIES(i) begin_body(i);
   if (gl_LocalInvocationIndex == 0u) {
     const uint i = SPHERE_GROUND_BODY;
     velocity[i] = spin[i] = moved[i] = turned[i] = vec4(0.0);
   }
   barrier();
-  FOR_OWN_MANIFOLDS(o) if (begin_manifold(o)) any_impact = 1u;
+  FOR_OWN_MANIFOLDS(o) {
+    bool meets;
+    if (begin_manifold(o, meets)) any_impact = 1u;
+    if (meets) any_meeting = 1u;
+  }
   barrier();
   solve_sub_steps(w);
   FOR_OWN_MANIFOLDS(o) keep_forces(o);

@@ -5,6 +5,7 @@
 // Tensors, Manifolds, Contacts, Order, Rows, Impulses, and sphere/body.h.
 #include "shared/language.h"
 #include "shared/sphere/row.h"
+#include "shared/sphere/wait.h"
 #include "sphere/ball.h"
 #include "sphere/near.h"
 #include "sphere/ordered.h"
@@ -93,11 +94,15 @@ uint first_contact(uint o) { return SPHERE_MAX_CONTACTS * (world.pairs.x + order
 uint row_of(Manifold m, uint left) { return m.row + SPHERE_ROW_PARTS * m.stride * uint(findLSB(left)); }
 
 float friction_of(Manifold m) { return friction_share * m.friction; }
-// Marks the bodies of manifold o as near a contact. Returns whether a contact of the manifold closes fast.
-bool begin_manifold(uint o) {
+// Marks the bodies of manifold o as near a contact. Returns whether a contact of the manifold closes fast; meets: and
+// the bodies did not press on each other before.
+bool begin_manifold(uint o, out bool meets) {
   Manifold m = manifold_at(o);
   spin_of(m.a).w = spin_of(m.b).w = 1.0;  // all invocations write the same value
-  return has(m, SPHERE_STRIKES);
+  meets = has(m, SPHERE_STRIKES);
+  if (!meets) return false;
+  FOR_NEAR(at, m) meets = meets && !(impulses[at].x > 0.0);
+  return true;
 }
 
 // Stores which contacts of manifold o may press (near: a bit for each), and the lower bound of the other gaps.
@@ -133,7 +138,9 @@ void observe(uint o, bool refreshed, Sides s, inout Manifold m) {
   }
   float reach = NEAR_REACH * plan.sub_step * reach_of(s.between, s.a.w, s.b.w, m.arm);
   bool all_may = has(m, SPHERE_STRIKES);
-  uint near = 0u, count = count_of(m.kind), contact = refreshed ? first_contact(o) : 0u;
+  float force = 0.0;
+  vec3 push = vec3(0.0);
+  uint near = 0u, apart = 0u, count = count_of(m.kind), contact = refreshed ? first_contact(o) : 0u;
   m.slack = NO_LIMIT;
   for (uint k = 0u, at = m.row; k < count; ++k, at += SPHERE_ROW_PARTS * m.stride) {
     float gap;
@@ -141,12 +148,23 @@ void observe(uint o, bool refreshed, Sides s, inout Manifold m) {
       gap = refresh_row(at, m.stride, contacts[contact + k], pa, pb, s);
     else
       gap = gap_now(at, m.stride, by_a, by_b);
+    float impulse = impulses[at].x;
     impulses[at].y = gap;
-    if (all_may || impulses[at].x > 0.0 || !(gap > reach))
+    if (all_may || impulse > 0.0 || !(gap > reach))
       near |= 1u << k;
     else
       m.slack = min(m.slack, gap);
+    if (gap > 0.0) apart |= 1u << k;
+    force += impulse;
+    push += impulse * rows[at].xyz;
   }
+  if (force <= 0.0 || any_meets()) apart = 0u;
+  uint waiting = 0u;
+  for (; apart != 0u; apart &= apart - 1u) {
+    uint at = row_of(m, apart);
+    if (waits(impulses[at].y, impulses[at].x, rows[at].xyz, force, push)) waiting |= apart & ~(apart - 1u);
+  }
+  m.kind = with_waiting(m.kind, waiting);
   keep_near(o, near, m);
 }
 
@@ -177,20 +195,20 @@ bool push_contact(uint o, uint at, Row row, Give give, inout float reach, inout 
   return slides;
 }
 
-// Solves all normal impulses of a manifold, then all friction. Most manifolds have one contact that presses: the row of
-// the first contact stays in registers between the two.
-void push_manifold(uint o, Give give, Manifold m, inout Sides s) {
+// Solves all normal impulses of a manifold, then all friction. waiting: a bit for each contact that is left out. Most
+// manifolds have one contact that presses: the row of the first contact stays in registers between the two.
+void push_manifold(uint o, Give give, uint waiting, Manifold m, inout Sides s) {
   float reach = plan.sub_step * reach_of(s.between, s.a.w, s.b.w, m.arm);
   if (!(reach < m.slack)) all_may_press(o, m);
-  uint left = near_of(m.kind), slides = 0u;  // one bit for each contact
+  uint left = near_of(m.kind) & ~waiting, slides = 0u;  // one bit for each contact
   if (left == 0u) return;
-  uint first = row_of(m, left), done = left ^ left - 1u;  // done: bits of all contacts up to this one
+  uint first = row_of(m, left), done = waiting | left ^ left - 1u;  // done: bits of all contacts up to this one
   Row row = row_at(first, m.stride);
   bool first_slides = push_contact(o, first, row, give, reach, m, s);
   while ((left = near_of(m.kind) & ~done) != 0u) {
-    done = left ^ left - 1u;
     uint at = row_of(m, left);
-    if (push_contact(o, at, row_at(at, m.stride), give, reach, m, s)) slides |= left & done;
+    done |= left ^ left - 1u;
+    if (push_contact(o, at, row_at(at, m.stride), give, reach, m, s)) slides |= left & ~(left - 1u);
   }
   float friction = friction_of(m);
   if (first_slides) solve_friction(first, m.stride, row, friction, s);
@@ -223,7 +241,8 @@ void solve_manifold(uint o, uint kind, Give give) {
   vec3 between = vb.xyz - va.xyz;
   Sides s = Sides(side_of(m.a, va.w, refreshed), side_of(m.b, vb.w, refreshed), between);
   if (kind >= SWEEP_FIRST_PUSH) begin_sweep(o, kind, refreshed, m, s);
-  if (kind <= SWEEP_FIRST_RELAX) push_manifold(o, give, m, s);
+  bool relaxes = kind == SWEEP_RELAX || kind == SWEEP_FIRST_RELAX;
+  if (kind <= SWEEP_FIRST_RELAX) push_manifold(o, give, relaxes ? waiting_of(m.kind) : 0u, m, s);
   vec3 impulse = 1.0 / inverse_masses(s) * (s.between - between);
   keep_side(m.a, va.xyz, -impulse, s.a);
   keep_side(m.b, vb.xyz, impulse, s.b);

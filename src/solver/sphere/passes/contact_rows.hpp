@@ -18,6 +18,7 @@ using Mask = LaneMask;
 
 #include "shared/sphere/contact.h"
 #include "shared/sphere/patch.h"
+#include "shared/sphere/wait.h"
 
 /// The motion of a body while contacts are solved (world frame). Each vector is x, y, z and a fourth value.
 struct alignas(64) Motion {
@@ -50,6 +51,7 @@ struct ContactRows {
   Lanes approach{};            ///< relative speed when both meet, if they do in this step (m/s); negative = closing
   Lanes lasting{};             ///< normal impulse at the start of the sub-step (N s)
   Lanes max_impulse{}, gap{};  ///< largest normal impulse (N s); distance when last computed (m)
+  LaneMask waits{};            ///< takes no impulse in relaxation (shared/sphere/wait.h)
 };
 
 using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< indices of bodies within their block

@@ -111,8 +111,10 @@ class ContactSolver {
   };
   Swept begin(const Bundle& bundle, bool push, bool first);
   float speed(std::size_t body) const;
+  LaneMask pressing(const Bundle& bundle) const;
   void observe_gaps(const Bundle& bundle);
-  void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const;
+  void let_wait(const Bundle& bundle);
+  void solve_normal(ContactRows& c, Velocities& u, bool push, LaneMask& unconverged) const;
 
   World& world_;
   Team& team_;
@@ -128,6 +130,7 @@ class ContactSolver {
   float tolerance_;            ///< m/s
   bool friction_holds_ = true;
   bool impact_ = false;    ///< some contact closes fast
+  bool meet_ = false;      ///< and the two bodies did not press on each other before
   bool unshared_ = false;  ///< an impact is, in this sub-step
   std::uint64_t unresolved_ = 0;
   std::vector<Motion>& motions_;
@@ -159,6 +162,7 @@ void ContactSolver::prepare() {
   for_each_bundle([&](Bundle& bundle) { sphere::prepare(world_, motions_, h_, bundle, rows_); });
   for (const Bundle& bundle : bundles_) {
     impact_ = impact_ || any(bundle.strikes);
+    meet_ = meet_ || any(bundle.strikes & ~pressing(bundle));
     for (int lane = 0; lane < bundle.lanes; ++lane)
       for (const std::uint32_t i : {bundle.a[lane], bundle.b[lane]})
         if (i < free_.size()) free_[i] = 0;
@@ -207,9 +211,10 @@ void ContactSolver::warm_start(std::uint32_t first, std::uint32_t last) {
 }
 
 /// Sequential impulse, accumulated and clamped.
-void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const {
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push, LaneMask& unconverged) const {
   const Lanes before = c.normal_impulse;
-  c.normal_impulse = normal_impulse(before, u.along_normal(c), c.gap, c.normal_mass, give);
+  c.normal_impulse = normal_impulse(before, u.along_normal(c), c.gap, c.normal_mass, push ? softly_ : firmly_);
+  if (!push) c.normal_impulse = select(c.waits, before, c.normal_impulse);
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
   const Lanes more = c.normal_impulse - before;
   if (shares_impacts_) unconverged |= is_unconverged(more, c.normal_mass, tolerance_);
@@ -222,10 +227,30 @@ void ContactSolver::observe_gaps(const Bundle& bundle) {
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + moved.along(rows_[i]);
 }
 
+/// Manifolds with a contact that presses.
+LaneMask ContactSolver::pressing(const Bundle& bundle) const {
+  LaneMask out{};
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) out |= rows_[i].normal_impulse > 0.0f;
+  return out;
+}
+
+/// Which contacts wait in relaxation; none does in a step in which two bodies meet.
+void ContactSolver::let_wait(const Bundle& bundle) {
+  Lanes force{};
+  LaneVec push{};
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    force += rows_[i].normal_impulse;
+    push = push + rows_[i].normal_impulse * rows_[i].normal;
+  }
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
+    rows_[i].waits = meet_ ? LaneMask{} : waits(rows_[i].gap, rows_[i].normal_impulse, rows_[i].normal, force, push);
+}
+
 /// What a sweep begins a bundle with.
 ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
   Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
   if (first && (!push || !settings_.relaxation)) observe_gaps(bundle);
+  if (first && !push) let_wait(bundle);
   const Lanes radius = all_lanes(settings_.patch_radius * world_.smallest_size);
   if (push && first) resist_turn(bundle, rows_, radius, swept.friction, swept.u);
   return swept;
@@ -242,9 +267,8 @@ bool ContactSolver::sweep(bool push, bool first) {
 BIN_SCENES_WIDE
 bool ContactSolver::sweep(std::uint32_t from, std::uint32_t to, bool push, bool first) {
   LaneMask unconverged{};
-  const Give& give = push ? softly_ : firmly_;
   const auto normal = [&](Swept& s, std::uint32_t k) {
-    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, give, unconverged);
+    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, push, unconverged);
   };
   const auto friction = [&](Swept& s, std::uint32_t k) {
     if (s.bundle.first + k < s.bundle.last && any(has_friction(rows_[s.bundle.first + k])))
