@@ -58,8 +58,8 @@ inline double spin_gained_in_an_impact(Lab lab, std::uint64_t seed) {
 /// and its finite-time singularity"); the contact goes round at sqrt(4 g / (R s)). The next corner, of the polygon's
 /// angle a ahead, comes down at w R a, w the coin's speed of turning, and its share of the mass is 1/5: each corner
 /// takes 0.4 m g R s a^2.
-inline double half_life_of_a_coin(Lab lab, std::uint32_t sides) {
-  const double radius = 0.012, thickness = 0.001, tilt = M_PI / 6.0, s = std::sin(tilt), angle = 2.0 * M_PI / sides;
+inline double half_life_of_a_coin(Lab lab, std::uint32_t sides, double radius) {
+  const double thickness = radius / 12.0, tilt = M_PI / 6.0, s = std::sin(tilt), angle = 2.0 * M_PI / sides;
   lab.def().bin.friction = 1.0;
   const PartModelPtr coin = PartModel::from_mesh(prism_mesh(sides, radius, -0.5 * thickness, 0.5 * thickness), "coin");
   const double height = radius * s + 0.5 * thickness * std::cos(tilt);

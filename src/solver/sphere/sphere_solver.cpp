@@ -30,6 +30,12 @@ struct Slot {
 
 #include "shared/sphere/cut.h"
 
+int cuts_of_rolling(const World& world) {
+  const float sub_step = world.whole_step / static_cast<float>(world.settings.sub_steps);
+  return static_cast<int>(
+      std::ceil(std::clamp(world.rolling * sub_step / world.settings.roll, 1.0f, world.settings.roll_cuts)));
+}
+
 int cuts_of_fast(const World& world) {
   if (!world.settings.cut_steps) return 1;
   float distance = 0.0f, turn = 0.0f;
@@ -38,7 +44,7 @@ int cuts_of_fast(const World& world) {
     distance = std::max(distance, (b.v.norm() + b.w.norm() * world.shapes[b.shape]->radius) * world.whole_step);
     turn = std::max(turn, b.w.norm() * world.whole_step);
   }
-  return static_cast<int>(cuts_of(distance, turn, world.thinnest));
+  return std::max(static_cast<int>(cuts_of(distance, turn, world.thinnest)), cuts_of_rolling(world));
 }
 
 void step_in_cuts(World& world) {

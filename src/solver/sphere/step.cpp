@@ -37,6 +37,7 @@ void step(World& world) {
   timed(color_manifolds, world, spent.color_manifolds);
   timed(solve, world, spent.solve);
   note_depths(world);
+  if (world.cuts_rolling()) note_rolling(world);
   timed(update_sleep, world, spent.update_sleep);
   if (world.cold_steps > 0) --world.cold_steps;
   world.forgets = false;
