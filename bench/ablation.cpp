@@ -9,6 +9,7 @@
 #include "solver/closed_form_scenes.hpp"
 #include "solver/pressed_scenes.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/sphere/shapes/sample_clusters.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/tight_scenes.hpp"
 
@@ -27,8 +28,10 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Done to coarse and fine samples of each part.
 void change_samples(Variant& variant, void (*change)(Samples&)) {
   variant.change = [change](Shape& shape) {
-    change(shape.coarse);
-    change(shape.fine);
+    for (Samples* samples : {&shape.coarse, &shape.fine}) {
+      change(*samples);
+      lay_out(*samples);
+    }
   };
 }
 
