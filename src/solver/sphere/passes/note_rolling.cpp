@@ -11,28 +11,34 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-constexpr float narrow = 0.02f;  ///< radius: contacts within it are one place, and a place that leaves it has moved
+constexpr float narrow = 0.02f;   ///< radius: contacts within it are one place, and a place that leaves it has moved
+constexpr float one_side = 0.9f;  ///< cosine: normals that differ by more hold the part from several sides
 
 /// Where two bodies press: the mean of their contacts, weighted by forces.
 struct Place {
   float force = 0;                                   ///< N
   Vec3f on_a = Vec3f::Zero(), on_b = Vec3f::Zero();  ///< m, body frames
+  Vec3f normal = Vec3f::Zero();                      ///< world frame
 
   explicit Place(const Manifold& m) {
     for (const Contact& c : m.contacts) {
       force += c.normal_force;
       on_a += c.normal_force * c.anchor_a;
       on_b += c.normal_force * c.anchor_b;
+      normal += c.normal_force * c.normal;
     }
     if (force <= 0) return;
     on_a /= force;
     on_b /= force;
+    normal.normalize();
   }
 };
 
+/// A part in a hole or a thread is held from several sides, and rattles rather than rolls.
 bool is_narrow(const Manifold& m, const Place& place, float most) {
   return place.force > 0 && std::all_of(m.contacts.begin(), m.contacts.end(), [&](const Contact& c) {
-           return c.normal_force <= 0 || (c.anchor_a - place.on_a).norm() < most;
+           return c.normal.dot(place.normal) > one_side &&
+                  (c.normal_force <= 0 || (c.anchor_a - place.on_a).norm() < most);
          });
 }
 
