@@ -31,12 +31,14 @@ struct Slot {
 #include "shared/sphere/cut.h"
 
 int cuts_of_rolling(const World& world) {
+  if (!world.cuts_rolling()) return 1;  // also where parts were added since: World::rolling is old then
   const float sub_step = world.whole_step / static_cast<float>(world.settings.sub_steps);
   return static_cast<int>(
       std::ceil(std::clamp(world.rolling * sub_step / world.settings.roll, 1.0f, world.settings.roll_cuts)));
 }
 
-int cuts_of_fast(const World& world) {
+/// Returns into how many equal steps the next one is divided, for parts that are fast or roll.
+int cuts_now(const World& world) {
   if (!world.settings.cut_steps) return 1;
   float distance = 0.0f, turn = 0.0f;
   for (const Body& b : world.bodies) {
@@ -48,7 +50,7 @@ int cuts_of_fast(const World& world) {
 }
 
 void step_in_cuts(World& world) {
-  const int cuts = cuts_of_fast(world);
+  const int cuts = cuts_now(world);
   BIN_SCENES_ASSERT(cuts >= 1);
   world.settings.time_step = world.whole_step / static_cast<float>(cuts);
   for (int k = 0; k < cuts; ++k) step(world);

@@ -1,5 +1,6 @@
-/// How fast contacts go round bodies that roll. The steps of these are shortened (sphere_solver.cpp): in each sub-step,
-/// a part that rolls loses about the energy that it would lose at a corner.
+/// Measures how fast the contacts of rolling parts go round them. Steps are shortened in proportion
+/// (sphere_solver.cpp): in each sub-step, a part that rolls loses about as much energy as at a corner of a polygon
+/// whose sides are the angle by which the contact goes round the part in the sub-step.
 #include "solver/sphere/world.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
@@ -18,7 +19,7 @@ constexpr float one_side = 0.9f;  ///< cosine: normals that differ by more hold 
 struct Place {
   float force = 0;                                   ///< N
   Vec3f on_a = Vec3f::Zero(), on_b = Vec3f::Zero();  ///< m, body frames
-  Vec3f normal = Vec3f::Zero();                      ///< world frame
+  Vec3f normal = Vec3f::Zero();                      ///< unit vector from a to b, world frame
 
   explicit Place(const Manifold& m) {
     for (const Contact& c : m.contacts) {
@@ -34,7 +35,8 @@ struct Place {
   }
 };
 
-/// A part in a hole or a thread is held from several sides, and rattles rather than rolls.
+/// Returns whether the bodies press at one place, and all their contacts point the same way. A part in a hole or a
+/// thread is held from several sides: it rattles rather than rolls.
 bool is_narrow(const Manifold& m, const Place& place, float most) {
   return place.force > 0 && std::all_of(m.contacts.begin(), m.contacts.end(), [&](const Contact& c) {
            return c.normal.dot(place.normal) > one_side &&
