@@ -102,7 +102,7 @@ void wake_struck(SphereWorld world, uint w, uint list, uint count) {
     uint body = world.bodies.x + i;
     if (!sleeps(body) || island_is_struck(states[body].flags.y - world.bodies.x) == 0u) continue;
     states[body].flags.x &= ~SPHERE_ASLEEP;
-    states[body].still_position.w = 0.0;
+    states[body].still_position.w = time_step;  // it does not fall
   }
   memoryBarrierBuffer();
   barrier();

@@ -124,8 +124,12 @@ void wake_struck(World& world) {
       world.sleep == Sleep::by_island ? islands_of(world) : DisjointSets(world.bodies.size());  // else each alone
   std::vector<char> wakes(world.bodies.size(), 0);
   for (const std::uint32_t i : struck) wakes[islands.root(i)] = 1;
-  for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-    if (world.bodies[i].asleep && wakes[islands.root(i)]) wake(world.bodies[i]);
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
+    Body& body = world.bodies[i];
+    if (!body.asleep || !wakes[islands.root(i)]) continue;
+    body.asleep = false;
+    body.still = world.settings.time_step;  // it does not fall
+  }
 }
 
 std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body) {
