@@ -44,6 +44,7 @@ shared uint some_struck;
 #include "sphere/color.h"
 #include "sphere/order.h"
 #include "sphere/contact_gap.h"
+#include "sphere/plan.h"
 
 const uint COLORED_ANEW = 0x80000000u;
 
@@ -72,12 +73,14 @@ void add_uncolored(SphereWorld world, uint p) {
   uncolored_at(atomicAdd(uncolored, 1u)) = p;
 }
 
-// Returns whether the bodies of a pair hit each other in this step. Twin: strikes() in strikes.hpp.
-bool pair_strikes(SphereWorld world, SpherePair pair, float least) {
+// Returns whether the bodies of a pair hit each other within `seconds`, at the speed of impacts that bounce. Twin:
+// strikes() in strikes.hpp.
+bool pair_strikes(SphereWorld world, SpherePair pair, float seconds) {
+  float least = seconds * settings.restitution_speed;
   uint slot = world.pairs.x + pair.slot, count = manifolds[slot].state.x;
   for (uint k = 0u; k < count; ++k) {
     SphereContact c = contacts[SPHERE_MAX_CONTACTS * slot + k];
-    if (!(c.force.x > 0.0) && strikes(c, pair, least, least)) return true;
+    if (!(c.force.x > 0.0) && strikes(c, pair, seconds, least, least)) return true;
   }
   return false;
 }
@@ -85,14 +88,13 @@ bool pair_strikes(SphereWorld world, SpherePair pair, float least) {
 // Wakes sleeping bodies that are hit in this step, and their islands. Twin: wake_struck().
 #define island_is_struck(i) used_low[i]
 void wake_struck(SphereWorld world, uint w, uint list, uint count) {
-  time_step = progress[w].time_step;
-  float least = time_step * settings.restitution_speed;
+  float seconds = progress[w].time_step + plan_of(w).sub_step;  // the last sweeps look ahead by a sub-step
   FOR_OWN(i, world.bodies.y) island_is_struck(i) = 0u;
   if (gl_LocalInvocationIndex == 0u) some_struck = 0u;
   barrier();
   FOR_OWN(p, count) {
     SpherePair pair = pairs[list + p];
-    if (pair.b == SPHERE_GROUND || sleeps(pair.a) == sleeps(pair.b) || !pair_strikes(world, pair, least)) continue;
+    if (pair.b == SPHERE_GROUND || sleeps(pair.a) == sleeps(pair.b) || !pair_strikes(world, pair, seconds)) continue;
     island_is_struck(states[sleeps(pair.a) ? pair.a : pair.b].flags.y - world.bodies.x) = 1u;
     some_struck = 1u;
   }
@@ -102,7 +104,7 @@ void wake_struck(SphereWorld world, uint w, uint list, uint count) {
     uint body = world.bodies.x + i;
     if (!sleeps(body) || island_is_struck(states[body].flags.y - world.bodies.x) == 0u) continue;
     states[body].flags.x &= ~SPHERE_ASLEEP;
-    states[body].still_position.w = time_step;  // it does not fall
+    states[body].still_position.w = progress[w].time_step;  // it does not fall
   }
   memoryBarrierBuffer();
   barrier();

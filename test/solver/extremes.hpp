@@ -130,9 +130,14 @@ TEST_P(Extremes, ThousandRadiansASecondKeepTheirEnergy) {
 }
 
 // When what slept was as heavy as a wall until the end of the step, a cube sprang back from its equal at full speed.
+// The last sweeps of a step look ahead by a sub-step: they meet what will be hit only in the next step.
 TEST_P(Extremes, ASleepingPartTakesItsShareOfAnImpact) {
   for (const double restitution : {0.0, 0.5, 1.0})
-    EXPECT_LT(error_of_impact_on_a_sleeper(lab(), restitution), 1e-3) << restitution;
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const double distance = 0.5 + eighth / 8.0 * 2.5e-3;  // m; the last term is a share of a step
+      EXPECT_LT(error_of_impact_on_a_sleeper(lab(), restitution, distance), 1e-3)
+          << "restitution " << restitution << ", " << eighth << " eighths of a step later";
+    }
 }
 
 }  // namespace bin_scenes::testing

@@ -56,7 +56,7 @@ bool recyclable(const World& world, const Manifold& m, const RelativePose& now, 
   const float limit = (world.fine ? world.settings.recycle : world.settings.coarse_recycle) * size;
   const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
   const float moved = std::max((now.x - m.found_x).norm(), half_turn * size), fresh = STRIKE * limit;
-  return moved < limit && (moved <= fresh || !strikes(world, m, fresh));
+  return moved < limit && (moved <= fresh || !strikes(world, m, world.settings.time_step, fresh));
 }
 
 /// Returns the motion of b, or of the ground if there is no b, relative to a in this step. Gravity is left out: it

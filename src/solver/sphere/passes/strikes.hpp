@@ -1,4 +1,4 @@
-/// Whether two bodies will hit each other in this step.
+/// Whether two bodies are about to hit each other.
 #pragma once
 
 #include "solver/sphere/world.hpp"
@@ -19,9 +19,9 @@ inline float separation(const Contact& c, const Body& a, const Body* b) {
   return (on_b - on_a).dot(normal_of(c, a, b));
 }
 
-/// Returns whether a contact of the pair that does not press yet closes in this step, or all but `left` (m) of its gap,
-/// and the bodies approach there by more than `least` (m).
-inline bool strikes(const World& world, const Manifold& m, float least, float left = 0) {
+/// Returns whether a contact of the pair that does not press yet closes within `seconds`, or all but `left` (m) of its
+/// gap, and the bodies approach there by more than `least` (m).
+inline bool strikes(const World& world, const Manifold& m, float seconds, float least, float left = 0) {
   const Body& a = world.bodies[m.a];
   const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
   const auto velocity = [](const Body& body, const Vec3f& anchor) {
@@ -30,7 +30,7 @@ inline bool strikes(const World& world, const Manifold& m, float least, float le
   return std::any_of(m.contacts.begin(), m.contacts.end(), [&](const Contact& c) {
     if (c.normal_force > 0) return false;
     const Vec3f nearing = velocity(a, c.anchor_a) - (b ? velocity(*b, c.anchor_b) : Vec3f(Vec3f::Zero()));
-    const float approach = world.settings.time_step * nearing.dot(normal_of(c, a, b));
+    const float approach = seconds * nearing.dot(normal_of(c, a, b));
     return approach > least && approach > separation(c, a, b) - left;
   });
 }

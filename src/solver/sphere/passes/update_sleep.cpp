@@ -110,14 +110,16 @@ void update_sleep(World& world) {
 }
 
 /// A sleeping body would be as heavy as a wall to what hits it, until it wakes at the end of the step: the impact would
-/// take or return twice the momentum. Slower bodies than those that bounce wake it by pressing. What gravity adds in
-/// the step, and rounding, are less than `least`.
+/// take or return twice the momentum. The last sweeps of a step look ahead by a sub-step, and so does this. Bodies that
+/// are slower than those that bounce wake it by pressing. What gravity adds in the step, and rounding, are less than
+/// `least`.
 void wake_struck(World& world) {
-  const float least = world.settings.time_step * world.settings.restitution_speed;
+  const float seconds = world.settings.time_step + world.plan().sub_step;
+  const float least = seconds * world.settings.restitution_speed;
   std::vector<std::uint32_t> struck;
   for (const Manifold& m : world.manifolds) {
     if (m.b == ground || world.bodies[m.a].asleep == world.bodies[m.b].asleep) continue;
-    if (strikes(world, m, least, least)) struck.push_back(world.bodies[m.a].asleep ? m.a : m.b);
+    if (strikes(world, m, seconds, least, least)) struck.push_back(world.bodies[m.a].asleep ? m.a : m.b);
   }
   if (struck.empty()) return;
   DisjointSets islands =
