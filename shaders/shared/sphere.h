@@ -152,7 +152,7 @@ struct SphereWorld {
   vec4 gravity;   // acceleration of gravity (m/s2); w: size of the smallest part (m)
   vec4 ground;    // friction and restitution of the bin, height of its walls (m), thickness of the thinnest part (m)
   vec4 tolerance; // m/s: a contact is solved when a sweep changes its speed by no more than this; x in a step without
-                  // an impact, y with one
+                  // an impact, y with one; z: 1 if impacts are solved exactly, so that they count in the next step too
 };
 
 // The state of a world between steps. The host reads it every few steps.
@@ -180,6 +180,8 @@ struct SphereProgress {
   uint base_colors, base_waste;  // when all manifolds were last colored: number of colors, and 1024 x sum over blocks
                                  // of the visits of the longest manifold / number of all visits
   uint lists_made, colorings;        // numbers of lists of near pairs made, and of colorings of all manifolds
+  uint struck;  // 1 if the last step had an impact, in a world that solves impacts exactly
+  uint unused0, unused1, unused2;
   // The states of bodies follow this struct when it is read back. Its size is therefore a multiple of 16 bytes.
 };
 
@@ -388,7 +390,7 @@ GPU_STRUCTS_END
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 96, "std430");
-static_assert(sizeof(SphereProgress) == 160, "std430");
+static_assert(sizeof(SphereProgress) == 176, "std430");
 static_assert(sizeof(SphereWorst) == 32 && sizeof(SphereAsk) == 80 && sizeof(SphereSeen) == 32, "std430");
 static_assert(sizeof(SphereWatched) == 128 && sizeof(SphereAudit) == 48, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 144 && sizeof(SphereTensor) == 80, "std430");

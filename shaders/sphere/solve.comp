@@ -162,6 +162,12 @@ void main() {
   barrier();
   FOR_OWN_MANIFOLDS(o) if (begin_manifold(o)) any_impact = 1u;
   barrier();
+  if (gl_LocalInvocationIndex == 0u) {
+    uint struck = any_impact;
+    any_impact |= progress[w].struck;  // what is left of the last step's impact is no force yet
+    progress[w].struck = world.tolerance.z > 0.0 ? struck : 0u;
+  }
+  barrier();
   solve_sub_steps(w);
   FOR_OWN_MANIFOLDS(o) keep_forces(o);
   uint falling = 0u;

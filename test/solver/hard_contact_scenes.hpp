@@ -98,9 +98,9 @@ inline Rebound strike_light_cube(Lab lab, double mass, double offset = 0.0) {
   return out;
 }
 
-/// Two cubes of `ratio` times the mass of a third one strike it from both sides at once: fastest that it is / their
-/// speed. Exactly, nothing moves afterwards.
-inline double asymmetry_of_impact(Lab lab, double edge, double ratio) {
+/// Two cubes of `ratio` times the mass of a third one, `gap` (edges) from it, strike it from both sides at once: fastest
+/// that it is / their speed. Exactly, nothing moves afterwards.
+inline double asymmetry_of_impact(Lab lab, double edge, double ratio, double gap) {
   lab.def().bin.kind = Bin::Kind::none;
   lab.def().gravity.setZero();
   const PartModelPtr cube = box(Vec3::Constant(edge));
@@ -108,7 +108,7 @@ inline double asymmetry_of_impact(Lab lab, double edge, double ratio) {
   const auto light = lab.place(cube, Vec3::Zero(), Quat::Identity(), material(0.5, 0.0, mass));
   for (const double side : {-1.0, 1.0}) {
     const auto heavy =
-        lab.place(cube, Vec3(1.2 * side * edge, 0, 0), Quat::Identity(), material(0.5, 0.0, ratio * mass));
+        lab.place(cube, Vec3((1.0 + gap) * side * edge, 0, 0), Quat::Identity(), material(0.5, 0.0, ratio * mass));
     lab.start(heavy).velocity.linear = Vec3(-side * speed, 0, 0);
   }
   double most = 0.0;

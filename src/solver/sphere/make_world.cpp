@@ -15,7 +15,7 @@ namespace bin_scenes::sphere {
 namespace {
 
 /// Heaviest / lightest part of worlds that solve impacts exactly; beyond, most_impact_sweeps does not suffice.
-constexpr float exact_mass_ratio = 40;
+constexpr float exact_mass_ratio = 120;
 
 Body make_body(const Shape& shape, std::uint32_t index, const BodyDef& def) {
   Body body;

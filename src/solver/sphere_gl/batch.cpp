@@ -190,7 +190,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   gpu::SphereWorld& w = host_worlds_[slot];
   w.gravity = vec4(world.gravity, world.smallest_size);
   w.ground = {world.ground_friction, world.ground_restitution, world.wall_top, world.thinnest};
-  w.tolerance = {world.tolerance(false), world.tolerance(true), 0, 0};
+  w.tolerance = {world.tolerance(false), world.tolerance(true), world.exact_impacts ? 1.0f : 0.0f, 0};
   upload_world(slot);
   std::vector<gpu::SpherePlane> planes;
   for (const sphere::Plane& plane : world.planes) planes.push_back(to_gpu(plane));
@@ -205,6 +205,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   progress = upload_pairs(slot, world);
   copy_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
+  progress.struck = world.struck ? 1 : 0;
   upload_progress({{slot, progress}});
   forget_worst(slot);
   return slot;

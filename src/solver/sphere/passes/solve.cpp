@@ -64,6 +64,7 @@ class ContactSolver {
   bool sweep(bool push, bool first);
   /// `least` sweeps, and more while an impact is not shared.
   void sweep_until_shared(bool push, int least);
+  bool struck() const { return struck_; }                   ///< bodies met fast in this step
   std::uint64_t unresolved() const { return unresolved_; }  ///< sub-steps that left an impact unshared
   void hold_by_friction(bool holds) { friction_holds_ = holds; }
   void note_sliding();    ///< bodies that friction brakes
@@ -127,7 +128,8 @@ class ContactSolver {
   const bool shares_impacts_;  ///< by further sweeps
   float tolerance_;            ///< m/s
   bool friction_holds_ = true;
-  bool impact_ = false;    ///< some contact closes fast
+  bool struck_ = false;    ///< some contact closes fast
+  bool impact_ = false;    ///< it does, or did in the step before: what is left of the impact is no force yet
   bool unshared_ = false;  ///< an impact is, in this sub-step
   std::uint64_t unresolved_ = 0;
   std::vector<Motion>& motions_;
@@ -158,11 +160,12 @@ void ContactSolver::prepare() {
   prepare_motions(make_bundles(world_, blocks_, block_, bundles_, colors_, rows_));
   for_each_bundle([&](Bundle& bundle) { sphere::prepare(world_, motions_, h_, bundle, rows_); });
   for (const Bundle& bundle : bundles_) {
-    impact_ = impact_ || any(bundle.strikes);
+    struck_ = struck_ || any(bundle.strikes);
     for (int lane = 0; lane < bundle.lanes; ++lane)
       for (const std::uint32_t i : {bundle.a[lane], bundle.b[lane]})
         if (i < free_.size()) free_[i] = 0;
   }
+  impact_ = struck_ || world_.struck;
   tolerance_ = world_.tolerance(impact_);
 }
 
@@ -364,6 +367,7 @@ void solve_block(ContactSolver& solver, const StepPlan& plan) {
 /// Sums over blocks.
 struct Counts {
   std::atomic<std::uint64_t> falling{0}, unresolved{0};
+  std::atomic<bool> struck{false};
 };
 
 void solve_block(World& world, const Blocks& blocks, std::size_t block, Counts& counts) {
@@ -376,6 +380,7 @@ void solve_block(World& world, const Blocks& blocks, std::size_t block, Counts& 
   });
   counts.falling += solver.falling();
   counts.unresolved += solver.unresolved();
+  if (solver.struck()) counts.struck = true;
 }
 
 }  // namespace
@@ -390,6 +395,7 @@ void solve(World& world) {
   BIN_SCENES_ASSERT(counts.falling <= world.bodies.size());
   world.counters.free_steps += counts.falling;
   world.deepest.unresolved_impacts += counts.unresolved;
+  world.struck = world.exact_impacts && counts.struck;
   BIN_SCENES_ASSERT(orientations_are_unit(world));
 }
 
