@@ -73,10 +73,12 @@ TEST(Pour, AHeavyPartOnALightOneWithoutFrictionIsRefused) {
     EXPECT_FALSE(refused({edge, 1000.0, 0.0, 1.1})) << edge << ": beside it";
     EXPECT_FALSE(refused({edge, 1000.0, 0.0, 0.0, 1.0})) << edge << ": above it";
     EXPECT_FALSE(refused({edge, 1000.0, 0.0, 0.0, 0.0, SolverType::bullet})) << edge;
-    EXPECT_FALSE(refused({edge, 3.0})) << edge << ": it stands";
+    EXPECT_FALSE(refused({edge, 1.9})) << edge << ": it stands";
   }
-  EXPECT_FALSE(refused({0.3, 100.0})) << "it stands";
-  EXPECT_TRUE(refused({0.05, 30.0})) << "it leaves within a second";
+  EXPECT_FALSE(refused({0.3, 58.0})) << "it stands";
+  EXPECT_TRUE(refused({0.3, 80.0})) << "it moves by 4 % of its diagonal";
+  EXPECT_TRUE(refused({0.05, 11.0})) << "it moves by 3 % of its diagonal";
+  EXPECT_TRUE(refused({0.005, 3.0})) << "it moves by 7 % of its diagonal";
 }
 
 TEST(Pour, RestMeansRest) {
