@@ -45,7 +45,7 @@ void decide(SphereWorld world, uint w, uint place) {
     return;
   }
   atomicAdd(tested, 1u);
-  uint fate = fate_of_contacts(world, pair, progress[w].fine != 0u);
+  uint fate = fate_of_contacts(world, pair, w);
   if (fate == FIND_ANEW)
     enlist(place);
   else
@@ -58,7 +58,7 @@ void find_strikes(SphereWorld world, uint w, uint first) {
   for (uint item = gl_LocalInvocationIndex; item < loose_count; item += SPHERE_JOB_GROUP) {
     uint of = loose[item] / SPHERE_MAX_CONTACTS, k = loose[item] % SPHERE_MAX_CONTACTS;
     SpherePair pair = pairs[first + of];
-    float least = STRIKE * recycle_limit(pair, progress[w].fine != 0u);
+    float least = STRIKE * recycle_limit(pair, w);
     SphereContact c = contacts[SPHERE_MAX_CONTACTS * (world.pairs.x + pair.slot) + k];
     if (!strikes(c, pair, least) || atomicExchange(struck[of], 1u) == 1u) continue;
     atomicAdd(progress[w].pairs_recycled, 0xffffffffu);

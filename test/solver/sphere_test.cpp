@@ -103,7 +103,7 @@ TEST(SphereVariant, TakesAwayWhatItNames) {
   EXPECT_LT(all.counters.at("nodes_tested"), all.counters.at("nodes_possible"));
 
   sphere::Variant anew, unculled;
-  anew.settings.recycle = anew.settings.coarse_recycle = 0;
+  anew.settings.recycle = anew.settings.coarse_recycle = anew.settings.pressed_recycle = 0;
   EXPECT_EQ(Tumbled(anew).counters.at("pairs_recycled"), 0u);
   unculled.change = [](sphere::Shape& shape) {
     for (sphere::Samples* samples : {&shape.coarse, &shape.fine})

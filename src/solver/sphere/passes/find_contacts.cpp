@@ -79,7 +79,7 @@ bool strikes(const World& world, const Manifold& m, float least) {
 bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
   if (!m.found) return false;
   if (world.is_ball(world.bodies[m.a]) || (m.b != ground && world.is_ball(world.bodies[m.b]))) return false;
-  const float limit = (world.fine ? world.settings.recycle : world.settings.coarse_recycle) * size;
+  const float limit = world.recycle() * size;
   const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
   const float moved = std::max((now.x - m.found_x).norm(), half_turn * size), fresh = STRIKE * limit;
   return moved < limit && (moved <= fresh || !strikes(world, m, fresh));
