@@ -163,7 +163,6 @@ struct Manifold {
   Vec3f found_x = Vec3f::Zero();
   Quatf found_q = Quatf::Identity();
   bool found = false;
-  float depth = 0;  ///< m: largest depth of its contacts at the start of the step, if the step solves it
   Rolling rolling;
   std::vector<Contact> contacts;  ///< at most max_contacts; carrying a manifold to the next step does not copy them
 };
@@ -308,10 +307,10 @@ struct World {
 void find_pairs(World& world);       ///< finds candidate pairs, and matches them with the manifolds of the last step
 void find_contacts(World& world);    ///< tests samples against fields, selects contacts, and matches forces
 void color_manifolds(World& world);  ///< colors manifolds so that no two of a color share a moving body
+void note_depths(World& world);      ///< records the deepest contact of this step in World::deepest
 void solve(World& world);            ///< solves the sub-steps, and moves the bodies
 void update_sleep(World& world);     ///< puts parts at rest to sleep
 
-void note_depths(World& world);   ///< records the deepest contact of this step in World::deepest
 void note_rolling(World& world);  ///< updates Manifold::rolling and World::rolling
 
 /// Returns the bodies, except fixed ones, that have contacts with this body, whether these carry a force or not.
