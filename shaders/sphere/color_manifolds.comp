@@ -14,7 +14,7 @@ layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[];
 layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
 layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
-layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
+layout(std430, binding = BIND_STATES) coherent buffer States { SphereState states[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_RANGES) readonly buffer Ranges { uvec4 ranges[]; };
 layout(std430, binding = BIND_PAIRS) coherent buffer Pairs { SpherePair pairs[]; };
@@ -31,6 +31,7 @@ shared uint uncolored, some_twice, highest_color;
 shared uint visits, longest_visits;  // of contacts: of all manifolds, and of the longest of each block of neighbours
 shared uint left[2];  // a manifold is uncolored; take turns
 shared uint contact_count, row_top;
+shared uint some_struck;
 
 #define lowest_of(i) lowest[i]
 #define used_low_of(i) used_low[i]
@@ -42,6 +43,8 @@ shared uint contact_count, row_top;
 #include "sphere/pair.h"
 #include "sphere/color.h"
 #include "sphere/order.h"
+#include "sphere/contact_gap.h"
+#include "sphere/plan.h"
 
 const uint COLORED_ANEW = 0x80000000u;
 
@@ -68,6 +71,43 @@ void place_colors(SphereWorld world, uint w, uint list, uint count) {
 void add_uncolored(SphereWorld world, uint p) {
   pairs[p].color = UNCOLORED;
   uncolored_at(atomicAdd(uncolored, 1u)) = p;
+}
+
+// Returns whether the bodies of a pair hit each other within `seconds`, at the speed of impacts that bounce. Twin:
+// strikes() in strikes.hpp.
+bool pair_strikes(SphereWorld world, SpherePair pair, float seconds) {
+  float least = seconds * settings.restitution_speed;
+  uint slot = world.pairs.x + pair.slot, count = manifolds[slot].state.x;
+  for (uint k = 0u; k < count; ++k) {
+    SphereContact c = contacts[SPHERE_MAX_CONTACTS * slot + k];
+    if (!(c.force.x > 0.0) && strikes(c, pair, seconds, least, least)) return true;
+  }
+  return false;
+}
+
+// Wakes sleeping bodies that are hit in this step, and their islands. Twin: wake_struck().
+#define island_is_struck(i) used_low[i]
+void wake_struck(SphereWorld world, uint w, uint list, uint count) {
+  float seconds = progress[w].time_step + plan_of(w).sub_step;  // the last sweeps look ahead by a sub-step
+  FOR_OWN(i, world.bodies.y) island_is_struck(i) = 0u;
+  if (gl_LocalInvocationIndex == 0u) some_struck = 0u;
+  barrier();
+  FOR_OWN(p, count) {
+    SpherePair pair = pairs[list + p];
+    if (pair.b == SPHERE_GROUND || sleeps(pair.a) == sleeps(pair.b) || !pair_strikes(world, pair, seconds)) continue;
+    island_is_struck(states[sleeps(pair.a) ? pair.a : pair.b].flags.y - world.bodies.x) = 1u;
+    some_struck = 1u;
+  }
+  barrier();
+  if (some_struck == 0u) return;
+  FOR_OWN(i, world.bodies.y) {
+    uint body = world.bodies.x + i;
+    if (!sleeps(body) || island_is_struck(states[body].flags.y - world.bodies.x) == 0u) continue;
+    states[body].flags.x &= ~SPHERE_ASLEEP;
+    states[body].still_position.w = progress[w].time_step;  // it does not fall
+  }
+  memoryBarrierBuffer();
+  barrier();
 }
 
 void claim(uint i, uvec2 bit) {
@@ -191,6 +231,7 @@ void main() {
 
   FOR_OWN(k, SPHERE_COLORS * VISIT_KINDS) members[k] = 0u;
   if (thread == 0u) row_top = longest_visits = 0u;
+  wake_struck(world, w, list, count);
   uint rounds = color_all(world, w, list, count);
   memoryBarrierBuffer();
   barrier();

@@ -60,7 +60,7 @@ void find_strikes(SphereWorld world, uint w, uint first) {
     SpherePair pair = pairs[first + of];
     float least = STRIKE * recycle_limit(pair, w);
     SphereContact c = contacts[SPHERE_MAX_CONTACTS * (world.pairs.x + pair.slot) + k];
-    if (!strikes(c, pair, least) || atomicExchange(struck[of], 1u) == 1u) continue;
+    if (!strikes(c, pair, time_step, least, 0.0) || atomicExchange(struck[of], 1u) == 1u) continue;
     atomicAdd(progress[w].pairs_recycled, 0xffffffffu);
     enlist(first + of);
   }

@@ -36,9 +36,12 @@ Sides starting_sides(Members of) {
   return s;
 }
 
+// Returns whether nothing holds a body up. What has not moved lately, such as a part that an impact has woken, is held.
+bool falls_freely(uint body) { return body != SPHERE_GROUND && moves(body) && states[body].still_position.w == 0.0; }
+
 // Returns the speed (m/s, negative) at which a contact closes its gap (m), at the velocities of the start of the step.
-float approach_of(Row row, float gap, Sides s) {
-  float falls = float(s.b.inverse_mass > 0.0) - float(s.a.inverse_mass > 0.0);
+// falls: 1 if only b falls freely, -1 if only a does, otherwise 0.
+float approach_of(Row row, float gap, Sides s, float falls) {
   return speed_at_impact(dot(relative_velocity(row, s), row.normal), gap, falls * dot(row.normal, world.gravity.xyz));
 }
 
@@ -46,7 +49,7 @@ float approach_of(Row row, float gap, Sides s) {
 float length_squared(Side side, vec3 lever) { return side.inverse_mass > 0.0 ? dot(lever, lever) : 0.0; }
 
 // Stores the row of a contact, and its force of the last step as impulse of a sub-step. Returns its approach (m/s).
-float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Sides s) {
+float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Sides s, float falls) {
   bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the normal belongs to a
   Row row;
   row.ra = rotate(start_a.orientation, c.anchor_a);
@@ -60,7 +63,7 @@ float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start st
   impulses[at] = vec2(along, gap);
   keep_friction(at, stride, along > 0.0 ? friction - dot(friction, row.normal) * row.normal : vec3(0.0));
   keep_lasting(at, stride, along, false);
-  return approach_of(row, gap, s);
+  return approach_of(row, gap, s, falls);
 }
 
 // Determines which contacts of a manifold may press in the first sub-step. If one of them strikes, all may. reach: m,
@@ -86,10 +89,11 @@ void prepare_manifold(uint o) {
   Sides s = starting_sides(of);
   uint count = count_of(m.kind), stride = stride_of(m.kind), first = SPHERE_ROW_PARTS * world.rows.x + m.row;
   bool strikes = false;
+  float falls = float(falls_freely(of.b)) - float(falls_freely(of.a));
   float arm_squared = 0.0, least_mass = NO_LIMIT;
   for (uint k = 0u; k < count; ++k) {
     uint at = first + SPHERE_ROW_PARTS * k * stride, contact = SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot) + k;
-    float approach = prepare_row(at, stride, contacts[contact], start_a, start_b, s);
+    float approach = prepare_row(at, stride, contacts[contact], start_a, start_b, s, falls);
     contacts[contact].approach = approach;
     Row row = row_at(at, stride);
     arm_squared = max(arm_squared, max(length_squared(s.a, row.ra), length_squared(s.b, row.rb)));

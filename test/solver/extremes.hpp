@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/fixture.hpp"
+#include "solver/impact_scenes.hpp"
 #include "solver/tight_scenes.hpp"
 
 #include <algorithm>
@@ -126,6 +127,17 @@ TEST_P(Extremes, ThousandRadiansASecondKeepTheirEnergy) {
     lab.simulate(1.0 / 60.0);
     EXPECT_NEAR(lab.kinetic_energy(0) / energy, 1.0, 1e-3);
   }
+}
+
+// When what slept was as heavy as a wall until the end of the step, a cube sprang back from its equal at full speed.
+// The last sweeps of a step look ahead by a sub-step: they meet what will be hit only in the next step.
+TEST_P(Extremes, ASleepingPartTakesItsShareOfAnImpact) {
+  for (const double restitution : {0.0, 0.5, 1.0})
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const double distance = 0.5 + eighth / 8.0 * 2.5e-3;  // m; the last term is a share of a step
+      EXPECT_LT(error_of_impact_on_a_sleeper(lab(), restitution, distance), 1e-3)
+          << "restitution " << restitution << ", " << eighth << " eighths of a step later";
+    }
 }
 
 }  // namespace bin_scenes::testing

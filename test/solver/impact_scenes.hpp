@@ -138,4 +138,22 @@ inline Exchange meet(Lab lab, Meeting meeting, std::uint64_t seed) {
   return out;
 }
 
+/// A cube at a metre a second hits an equal one `distance` (m) away, which sleeps by then, without gravity. Returns the
+/// largest error of both speeds afterwards / speed of the impact.
+inline double error_of_impact_on_a_sleeper(Lab lab, double restitution, double distance) {
+  const double edge = 0.05, speed = 1.0;
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  const PartModelPtr cube = box(Vec3::Constant(edge));
+  const auto still = lab.place(cube, Vec3::Zero(), Quat::Identity(), material(0.0, restitution));
+  const auto comes = lab.place(cube, Vec3(-distance - edge, 0, 0), Quat::Identity(), material(0.0, restitution));
+  lab.start(comes).velocity.linear = Vec3(speed, 0, 0);
+  lab.begin(phases::pour);
+  lab.simulate(0.6);
+  const Vec3 pushed = 0.5 * (1.0 + restitution) * Vec3(speed, 0, 0), left = Vec3(speed, 0, 0) - pushed;
+  return std::max((lab.state(still).velocity.linear - pushed).norm(),
+                  (lab.state(comes).velocity.linear - left).norm()) /
+         speed;
+}
+
 }  // namespace bin_scenes::testing

@@ -209,7 +209,9 @@ INLINE Exit nearest_exit(IN(Walls) walls, IN(Exits) exits, IN(vec3) away, float 
 // face then, and not by the surface at its present position. Otherwise, the plane across the edge would stop it there,
 // for example a peg above the mouth of its hole. A sample that meets a surface on its path is held by that surface, as
 // seen from its present position, or, if it is farther away than a cell, from the last place of its path in front of
-// the surface: far from an edge, it is not seen on which part of the surface the sample will press.
+// the surface: far from an edge, it is not seen on which part of the surface the sample will press. This place is less
+// than a cell in front, where distances at edges are exact: with those of the grid, two faces that meet would touch at
+// some of their contacts first and turn, by 0.01 % of the speed of the impact and more.
 INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) {
   const int most_advances = 18;
   View view = given;
@@ -237,7 +239,8 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
     }
     advances = !meets && i + 2 < most_advances;
     if (!meets) clear = done;
-    done = advances ? min(done + max(near.distance, least), size) : far ? clear : 0.0f;
+    float stride = near.distance > view.field.cell ? near.distance - 0.5f * view.field.cell : max(near.distance, least);
+    done = advances ? min(done + stride, size) : far ? clear : 0.0f;
     vec3 ahead = (done > 0.0f ? done / size : 0.0f) * drift;
     if (!advances) view.ahead = ahead;
     at.point = touch.point + ahead;

@@ -34,6 +34,7 @@ void step(World& world) {
   Spent& spent = world.spent;
   timed(find_pairs, world, spent.find_pairs);
   timed(find_contacts, world, spent.find_contacts);
+  timed(wake_struck, world, spent.update_sleep);
   timed(color_manifolds, world, spent.color_manifolds);
   note_depths(world);
   timed(solve, world, spent.solve);

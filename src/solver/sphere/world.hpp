@@ -306,6 +306,7 @@ struct World {
 // The passes in the order of a step; each is a file of passes/.
 void find_pairs(World& world);       ///< finds candidate pairs, and matches them with the manifolds of the last step
 void find_contacts(World& world);    ///< tests samples against fields, selects contacts, and matches forces
+void wake_struck(World& world);      ///< wakes sleeping bodies that are hit in this step, and their islands
 void color_manifolds(World& world);  ///< colors manifolds so that no two of a color share a moving body
 void note_depths(World& world);      ///< records the deepest contact of this step in World::deepest
 void solve(World& world);            ///< solves the sub-steps, and moves the bodies

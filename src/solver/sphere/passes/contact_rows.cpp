@@ -136,12 +136,16 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
                          ? 0.0f
                          : h;  // s for which the last forces have acted when the sweeps begin
   const float contact_time = world.plan().contact_time;
+  // What has not moved lately, such as a part that an impact has woken, is held up by something.
+  const auto falls_freely = [](const Body& body) { return body.moves() && body.inverse_mass > 0 && body.still == 0; };
+  Lanes falls{};
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];
     const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
     bundle.friction[lane] = world.friction_share * m.friction;
     bundle.restitution[lane] = m.restitution;
+    falls[lane] = static_cast<float>(b && falls_freely(*b)) - static_cast<float>(falls_freely(a));
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
     bundle.refreshed[lane] = rolls ? 0 : -1;
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
@@ -155,8 +159,6 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
   const Vec3f& g = world.gravity;
   const LaneVec gravity{all_lanes(g.x()), all_lanes(g.y()), all_lanes(g.z())};
   const Lanes inverse_masses = velocities.inverse_mass_a + velocities.inverse_mass_b;
-  const auto moves = [](Lanes inverse_mass) { return inverse_mass > 0.0f ? all_lanes(1) : all_lanes(0); };
-  const Lanes falls = moves(velocities.inverse_mass_b) - moves(velocities.inverse_mass_a);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     ContactRows& c = rows[i];
     c.gap = c.separation;

@@ -6,6 +6,7 @@
 #include "solver/sphere/math.hpp"
 #include "solver/sphere/passes/candidates.hpp"
 #include "solver/sphere/passes/reduce.hpp"
+#include "solver/sphere/passes/strikes.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <tbb/blocked_range.h>
@@ -46,33 +47,6 @@ RelativePose relative_pose(const Body& a, const Body* b) {
   return {a.rotation.transpose() * (b->x - a.x), a.q.conjugate() * b->q};
 }
 
-/// Where the bodies are.
-Vec3f normal_of(const Contact& c, const Body& a, const Body* b) {
-  const bool field_of_a = c.feature & SPHERE_SIDE_B;
-  return field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
-}
-
-/// How far apart the points of a contact are where the bodies are (m).
-float separation(const Contact& c, const Body& a, const Body* b) {
-  const Vec3f on_a = a.x + a.rotation * c.anchor_a, on_b = b ? Vec3f(b->x + b->rotation * c.anchor_b) : c.anchor_b;
-  return (on_b - on_a).dot(normal_of(c, a, b));
-}
-
-/// Whether a contact that does not press yet closes in this step, by more than `least` (m).
-bool strikes(const World& world, const Manifold& m, float least) {
-  const Body& a = world.bodies[m.a];
-  const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
-  const auto velocity = [](const Body& body, const Vec3f& anchor) {
-    return body.moves() ? Vec3f(body.v + body.w.cross(body.rotation * anchor)) : Vec3f(Vec3f::Zero());
-  };
-  return std::any_of(m.contacts.begin(), m.contacts.end(), [&](const Contact& c) {
-    if (c.normal_force > 0) return false;
-    const Vec3f nearing = velocity(a, c.anchor_a) - (b ? velocity(*b, c.anchor_b) : Vec3f(Vec3f::Zero()));
-    const float approach = world.settings.time_step * nearing.dot(normal_of(c, a, b));
-    return approach > least && approach > separation(c, a, b);
-  });
-}
-
 /// Whether the pair has hardly moved since its contacts were found. What strikes is found anew: beside an edge the
 /// plane that it will meet turns with every bit of displacement. The point where a ball touches stays below it, while
 /// one that is kept turns with it: the ball would stand on what it has rolled over, which drives it on.
@@ -82,7 +56,7 @@ bool recyclable(const World& world, const Manifold& m, const RelativePose& now, 
   const float limit = world.recycle() * size;
   const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
   const float moved = std::max((now.x - m.found_x).norm(), half_turn * size), fresh = STRIKE * limit;
-  return moved < limit && (moved <= fresh || !strikes(world, m, fresh));
+  return moved < limit && (moved <= fresh || !strikes(world, m, world.settings.time_step, fresh));
 }
 
 /// Returns the motion of b, or of the ground if there is no b, relative to a in this step. Gravity is left out: it

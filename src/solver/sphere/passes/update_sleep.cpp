@@ -1,6 +1,7 @@
 #include "core/disjoint_sets.hpp"
 
 #include "solver/sphere/invariants.hpp"
+#include "solver/sphere/passes/strikes.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
@@ -105,6 +106,31 @@ void update_sleep(World& world) {
     if (awake[i] && b.asleep && world.sleep == Sleep::by_island) b.still = 0;
     if (awake[i] && b.asleep && world.sleep == Sleep::by_touch) b.still = world.settings.time_step;
     b.asleep = !awake[i];
+  }
+}
+
+/// A sleeping body would be as heavy as a wall to what hits it, until it wakes at the end of the step: the impact would
+/// take or return twice the momentum. The last sweeps of a step look ahead by a sub-step, and so does this. Bodies that
+/// are slower than those that bounce wake it by pressing. What gravity adds in the step, and rounding, are less than
+/// `least`.
+void wake_struck(World& world) {
+  const float seconds = world.settings.time_step + world.plan().sub_step;
+  const float least = seconds * world.settings.restitution_speed;
+  std::vector<std::uint32_t> struck;
+  for (const Manifold& m : world.manifolds) {
+    if (m.b == ground || world.bodies[m.a].asleep == world.bodies[m.b].asleep) continue;
+    if (strikes(world, m, seconds, least, least)) struck.push_back(world.bodies[m.a].asleep ? m.a : m.b);
+  }
+  if (struck.empty()) return;
+  DisjointSets islands =
+      world.sleep == Sleep::by_island ? islands_of(world) : DisjointSets(world.bodies.size());  // else each alone
+  std::vector<char> wakes(world.bodies.size(), 0);
+  for (const std::uint32_t i : struck) wakes[islands.root(i)] = 1;
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
+    Body& body = world.bodies[i];
+    if (!body.asleep || !wakes[islands.root(i)]) continue;
+    body.asleep = false;
+    body.still = world.settings.time_step;  // it does not fall
   }
 }
 
