@@ -21,9 +21,9 @@ vec3 velocity_at(uint body, vec3 anchor) {
   return states[body].velocity.xyz + cross(states[body].spin.xyz, rotate(states[body].orientation, anchor));
 }
 
-// Returns whether a contact closes its gap in this step, and the bodies approach there by more than `least` (m).
-bool strikes(SphereContact c, SpherePair pair, float least) {
+// Returns whether a contact closes its gap within `seconds`, and the bodies approach there by more than `least` (m).
+bool strikes(SphereContact c, SpherePair pair, float seconds, float least) {
   vec3 nearing = velocity_at(pair.a, c.anchor_a) - velocity_at(pair.b, c.anchor_b);
-  float approach = time_step * dot(nearing, normal_of(c, pair));
+  float approach = seconds * dot(nearing, normal_of(c, pair));
   return approach > least && approach > separation_of(c, pair);
 }

@@ -58,17 +58,19 @@ float separation(const Contact& c, const Body& a, const Body* b) {
   return (on_b - on_a).dot(normal_of(c, a, b));
 }
 
-/// Whether a contact that does not press yet closes in this step, by more than `least` (m).
+/// Whether a contact that does not press yet closes in this step, by more than `least` (m), or in the sub-step after
+/// it, into which the last sweeps look.
 bool strikes(const World& world, const Manifold& m, float least) {
   const Body& a = world.bodies[m.a];
   const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
   const auto velocity = [](const Body& body, const Vec3f& anchor) {
     return body.moves() ? Vec3f(body.v + body.w.cross(body.rotation * anchor)) : Vec3f(Vec3f::Zero());
   };
+  const float seconds = world.settings.time_step + world.plan().sub_step;
   return std::any_of(m.contacts.begin(), m.contacts.end(), [&](const Contact& c) {
     if (c.normal_force > 0) return false;
     const Vec3f nearing = velocity(a, c.anchor_a) - (b ? velocity(*b, c.anchor_b) : Vec3f(Vec3f::Zero()));
-    const float approach = world.settings.time_step * nearing.dot(normal_of(c, a, b));
+    const float approach = seconds * nearing.dot(normal_of(c, a, b));
     return approach > least && approach > separation(c, a, b);
   });
 }
