@@ -48,7 +48,7 @@ const Mechanism mechanisms[] = {
     // Finding contacts.
     {"oriented boxes", "pairs by upright boxes alone", [](Variant& v) { v.settings.oriented_boxes = false; }},
     {"recycling", "contacts found anew in every step",
-     [](Variant& v) { v.settings.recycle = v.settings.coarse_recycle = 0; }},
+     [](Variant& v) { v.settings.recycle = v.settings.coarse_recycle = v.settings.pressed_recycle = 0; }},
     {"clusters of samples", "every node of a pair examined",
      [](Variant& v) { change_samples(v, [](Samples& s) { never_far(s.clusters); }); }},
     {"coarse samples", "parts pour on exact samples",

@@ -55,6 +55,7 @@
 #define SPHERE_MAX_BODIES 384       // largest number of bodies of a world, which one group solves: their velocities
                                     // fill 24 of 32 KiB of shared memory
 #define SPHERE_RIGID 2u             // index of rigid contacts in SphereSettingsBlock.softness; a probe uses them
+#define SPHERE_SOFT 0u              // the same of soft contacts
 #define SPHERE_SLEEP_BY_ISLAND 0u  // values of SphereProgress.sleep, as in the enumeration Phase::Sleep
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
@@ -138,6 +139,7 @@ struct SphereSettingsBlock {
   float patch_radius;      // radius of the friction patch of a point or line contact (sizes of the smallest part)
   uint cut_steps;          // 1: steps are shortened for fast parts
   float probe_slip;        // s: time without friction at the start of a probe, which has no remembered forces
+  float pressed_recycle;   // value that replaces `recycle` on stiff and rigid contacts (sizes of the smaller part)
   float touch_move;        // value that replaces `rest_move` if bodies sleep by touch (sizes of the part)
   vec4 softness[3];        // by Stiffness: frequency of the contact spring x length of a sub-step, damping ratio, slop
                            // (overlap that remains, in sizes of the smallest part), factor on the number of sub-steps

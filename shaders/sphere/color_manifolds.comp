@@ -74,7 +74,7 @@ void add_uncolored(SphereWorld world, uint p) {
 }
 
 // Returns whether the bodies of a pair hit each other within `seconds`, at the speed of impacts that bounce. Twin:
-// strikes() in strikes.hpp.
+// strikes() in contact_gap.hpp.
 bool pair_strikes(SphereWorld world, SpherePair pair, float seconds) {
   float least = seconds * settings.restitution_speed;
   uint slot = world.pairs.x + pair.slot, count = manifolds[slot].state.x;

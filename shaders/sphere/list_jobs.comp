@@ -21,6 +21,7 @@ layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob
 #include "sphere/body.h"
 #include "sphere/pair.h"
 #include "sphere/pair_job.h"
+#include "sphere/plan.h"
 
 uniform uint groups_of_a_world;
 
@@ -45,7 +46,7 @@ void decide(SphereWorld world, uint w, uint place) {
     return;
   }
   atomicAdd(tested, 1u);
-  uint fate = fate_of_contacts(world, pair, progress[w].fine != 0u);
+  uint fate = fate_of_contacts(world, pair, w);
   if (fate == FIND_ANEW)
     enlist(place);
   else
@@ -53,14 +54,16 @@ void decide(SphereWorld world, uint w, uint place) {
   if (fate == RECYCLE_UNLESS_IT_STRIKES) add_loose(world, pair);
 }
 
-// An invocation a contact. The first that strikes puts its pair on the list after all.
+// An invocation a contact. The first that strikes puts its pair on the list after all. The last sweeps of a step look
+// into the sub-step after it.
 void find_strikes(SphereWorld world, uint w, uint first) {
+  float seconds = time_step + plan_of(w).sub_step;
   for (uint item = gl_LocalInvocationIndex; item < loose_count; item += SPHERE_JOB_GROUP) {
     uint of = loose[item] / SPHERE_MAX_CONTACTS, k = loose[item] % SPHERE_MAX_CONTACTS;
     SpherePair pair = pairs[first + of];
-    float least = STRIKE * recycle_limit(pair, progress[w].fine != 0u);
+    float least = STRIKE * recycle_limit(pair, w);
     SphereContact c = contacts[SPHERE_MAX_CONTACTS * (world.pairs.x + pair.slot) + k];
-    if (!strikes(c, pair, time_step, least, 0.0) || atomicExchange(struck[of], 1u) == 1u) continue;
+    if (!strikes(c, pair, seconds, least, 0.0) || atomicExchange(struck[of], 1u) == 1u) continue;
     atomicAdd(progress[w].pairs_recycled, 0xffffffffu);
     enlist(first + of);
   }

@@ -1,7 +1,7 @@
-// One group a world: the deepest contact of all that this step solves, at the beginning of the step, by its depth as a
-// share of the diagonal of the smaller part. It replaces the world's worst contact if that was less deep. Of equally
-// deep ones the pair with the lowest bodies is named, so that the order of manifolds does not matter. Twin:
-// note_depths().
+// One group per world: finds the deepest contact at the beginning of the step, by its depth as a share of the diagonal of
+// the smaller part. It replaces the worst contact of the world if that was less deep. Of equally deep contacts, that of
+// the pair with the lowest bodies is named, so that the order of manifolds does not matter. Runs after prepare_rows and
+// before solve, which moves the bodies. Twin: note_depths().
 #include "shared/sphere.h"
 
 layout(local_size_x = SPHERE_WORLD_GROUP) in;
@@ -10,6 +10,10 @@ layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[];
 layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
 layout(std430, binding = BIND_PROGRESS) readonly buffer Progress { SphereProgress progress[]; };
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
+layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
+layout(std430, binding = BIND_FIELDS) readonly buffer Fields { vec2 fields[]; };
+layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_ORDER) readonly buffer Order { SphereOrdered order[]; };
 layout(std430, binding = BIND_ROWS) buffer Rows { vec4 rows[]; };
 layout(std430, binding = BIND_IMPULSES) buffer Impulses { vec2 impulses[]; };
@@ -18,6 +22,16 @@ layout(std430, binding = BIND_WORST) buffer Worst { SphereWorst worst[]; };
 #include "shared/language.h"
 #include "shared/rotation.h"
 #include "sphere/contact_row.h"
+#include "sphere/body.h"
+#include "sphere/field.h"
+
+struct Placed {
+  Field field;
+  mat3 rotation;
+  vec3 position;
+};
+
+#include "shared/sphere/overlap.h"
 #include "sphere/ordered.h"
 
 shared uint deepest;  // bits of a share of the diagonal; shares are not negative, so that bits are ordered as they are
@@ -36,14 +50,28 @@ float diagonal_of(uint a, uint b) {
   return b == SPHERE_GROUND ? own : min(own, bodies[b].material.w);
 }
 
-Depth depth_of(SphereWorld world, SphereOrdered m) {
+Placed placed(uint body) {
+  return Placed(field_of(bodies[body].ids.x), rotation_of(states[body].orientation), states[body].position.xyz);
+}
+
+float overlap_of(SphereContact c, Members of, float depth) {
+  Placed a = placed(of.a), b = placed(of.b);
+  return overlap_at(a, b, a.position + a.rotation * c.anchor_a, b.position + b.rotation * c.anchor_b, depth);
+}
+
+// Depths up to `limit` (share of the diagonal) need not be exact.
+Depth depth_of(SphereWorld world, SphereOrdered m, float limit) {
   Members of = bodies_of(world, m.bodies);
-  float deep = 0.0;
+  float deepest = 0.0;
   uint count = count_of(m.kind), stride = stride_of(m.kind);
-  for (uint k = 0u; k < count; ++k)
-    deep = max(deep, -found_gap_at(SPHERE_ROW_PARTS * (world.rows.x + k * stride) + m.row, stride));
+  for (uint k = 0u; k < count; ++k) {
+    float depth = -found_gap_at(SPHERE_ROW_PARTS * (world.rows.x + k * stride) + m.row, stride);
+    if (of.b != SPHERE_GROUND && depth > limit * diagonal_of(of.a, of.b))
+      depth = overlap_of(contacts[SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot) + k], of, depth);
+    deepest = max(deepest, depth);
+  }
   uint a = of.a - world.bodies.x, b = of.b == SPHERE_GROUND ? 0xffffu : of.b - world.bodies.x;
-  return Depth(deep / diagonal_of(of.a, of.b), a << 16 | b);
+  return Depth(deepest / diagonal_of(of.a, of.b), a << 16 | b);
 }
 
 void main() {
@@ -57,7 +85,7 @@ void main() {
   barrier();
   Depth own = Depth(0.0, NO_PAIR);
   for (uint o = gl_LocalInvocationIndex; o < progress[w].ordered; o += SPHERE_WORLD_GROUP) {
-    Depth next = depth_of(world, order[world.pairs.x + o]);
+    Depth next = depth_of(world, order[world.pairs.x + o], worst[w].relative);
     if (next.relative > own.relative || next.relative == own.relative && next.key < own.key) own = next;
   }
   bool overlaps = own.relative > 0.0;

@@ -7,16 +7,18 @@
 // The decisions about the contacts of a pair.
 const uint FIND_ANEW = 0u, RECYCLE = 1u, RECYCLE_UNLESS_IT_STRIKES = 2u;
 
-float recycle_limit(SpherePair pair, bool fine) {
-  return (fine ? settings.recycle : settings.coarse_recycle) * size_of(pair);
+// Returns the displacement (m) up to which a pair keeps its contacts. w: index of the world.
+float recycle_limit(SpherePair pair, uint w) {
+  float pressed = progress[w].stiffness == SPHERE_SOFT ? settings.recycle : settings.pressed_recycle;
+  return (progress[w].fine != 0u ? pressed : settings.coarse_recycle) * size_of(pair);
 }
 
 // Decides whether a pair keeps its contacts, which it does if it has hardly moved since they were found. Contacts of a
-// ball are always found anew: kept ones would rotate with the ball and accelerate it. `fine`: fine samples are in use.
-uint fate_of_contacts(SphereWorld world, SpherePair pair, bool fine) {
+// ball are always found anew: kept ones would rotate with the ball and accelerate it. w: index of the world.
+uint fate_of_contacts(SphereWorld world, SpherePair pair, uint w) {
   SphereManifold manifold = manifolds[world.pairs.x + pair.slot];
   if (manifold.state.z == 0u || is_ball(pair.a) || is_ball(pair.b)) return FIND_ANEW;
-  float limit = recycle_limit(pair, fine);
+  float limit = recycle_limit(pair, w);
   vec3 position;
   vec4 orientation;
   relative_pose(pair, position, orientation);

@@ -31,6 +31,7 @@ struct Settling::Seen {
   double last_stage;  ///< s: the same at the last observation
   int checks, rechecks;
   double since_pour;  ///< s
+  bool staged;        ///< whether the solver has stages
 
   bool all_in() const { return heap.all_in() && heap.all_slow(); }
   bool rest() const { return heap.all_in() && heap.all_rest(); }
@@ -79,20 +80,22 @@ const Settling::Transition Settling::transitions[] = {
     {Stage::settle, Finish::settled, Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
     {Stage::press,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
     {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
-    {Stage::verify, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
-    {Stage::settle, Finish::settled, Finish::settled, [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::verify, Finish::settled, Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
+    {Stage::settle, Finish::settled, Finish::settled, [](const Seen& s) { return !s.staged && s.rest(); }, Stage::done},
+    {Stage::settle, Finish::settled, Finish::settled, [](const Seen& s) { return s.staged && s.calm(); }, Stage::verify},
     {Stage::settle, Finish::pressed, Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::press},
     {Stage::press,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::probe},
     {Stage::press,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
-    {Stage::press,  Finish::settled, Finish::pressed, [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::press,  Finish::settled, Finish::pressed, [](const Seen& s) { return s.calm(); },         Stage::verify},
     {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::probe},
     {Stage::probe,  Finish::probed,  Finish::probed,
      [](const Seen& s) { return s.stood() && (s.in_stage >= creep || s.heap.all_asleep()); },         Stage::verify},
     {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
+    {Stage::verify,  Finish::settled, Finish::pressed, [](const Seen& s) { return s.shown(); },        Stage::done},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::verify},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.verified(); },     Stage::done},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.shown(); },        Stage::recheck},
-    {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
+    {Stage::verify,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
     {Stage::recheck, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.verified(); },     Stage::done},
     {Stage::recheck, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.verifiable(); },   Stage::recheck},
     {Stage::recheck, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.shown(); },        Stage::done},
@@ -136,7 +139,9 @@ void Settling::enter(Stage stage, double time) {
 }
 
 Settling::Seen Settling::seen(const HeapView& heap, double time) const {
-  return {heap, calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_, rechecks_, time - poured_};
+  return {
+      heap,     calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_, rechecks_, time - poured_,
+      !ignored_};
 }
 
 std::array<double, 4> Settling::ages(const HeapView& heap, double time) const {
@@ -178,7 +183,7 @@ const char* Settling::finish() const {
       return name_of(Finish::settled);
     case Stage::verify:
     case Stage::recheck:
-      return name_of(Finish::probed);
+      return name_of(finish_);
     default:
       return name_of(ignored_ ? Finish::settled : Finish::pressed);
   }

@@ -1,8 +1,11 @@
 /// Settling of a heap as data: the phase of the solver in each stage, and the transitions between stages.
 ///
 ///     pour ─► settle ─► press ─► probe ─► verify ─► recheck ─► done    a stage in which parts rock on goes back to
-///                └─ settled ┘ pressed ┘     probed ┘                   settle; given poses start in hold, a heap from
+///                                                                      settle; given poses start in hold, a heap from
 ///                                                                      which parts were taken out starts in repair
+///
+/// Finish::settled leaves out press, probe and recheck, and Finish::pressed leaves out probe and recheck. A heap that
+/// forgets its forces before it counts as finished has shown that it does not rest on remembered friction alone.
 ///
 /// A check is a probe, verify or recheck. If many parts move in one, it is repeated for the whole heap. If a few do,
 /// these are checked again alone, until they rest or the number of checks is used up: then they are reported as

@@ -242,10 +242,11 @@ void visit(Visitor& v, Pour& pour) {
            "`parts` or the key `scene` give."},
           pour.pattern);
   v.field({"finish", "",
-           "Last stage of settling before a scene counts as finished. `settled`: the parts are at rest on soft "
-           "contacts. `pressed`: in addition, stiff contacts remove the overlap of the parts. `probed`: in addition, "
-           "the heap must stay at rest without remembered contact forces and with 90 % of the friction, which takes up "
-           "to twice the time of `pressed`. With the solver `bullet`, all three mean `settled`."},
+           "Last stage of settling before a scene counts as finished. `settled`: the parts come to rest on soft "
+           "contacts, and rest again after the contact forces were forgotten once. `pressed`: before that, stiff "
+           "contacts remove the overlap of the parts. `probed`: in addition, the heap must stay at rest each time that "
+           "the forces are forgotten, with 90 % of the friction, which takes up to twice the time of `pressed`. With "
+           "the solver `bullet`, all three mean that the parts are at rest."},
           pour.finish);
   v.field({"drop_height", "m",
            "For the pattern `rain`: height above the heap from which each part falls. Larger heights cause harder "

@@ -56,6 +56,7 @@ void apply(SolverSettings::Preset preset, Request& request) {
   sphere.step_fall = 7.5e-3;
   sphere.sub_steps = 1;
   sphere.recycle = 5e-3;
+  sphere.pressed_recycle = 2e-4;
   sphere.coarse_samples = 100;
   sphere.fine_samples = 100;
   sphere.field_cell = 0.01;

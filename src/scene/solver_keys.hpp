@@ -149,8 +149,9 @@ void visit(Visitor& v, SphereSettings& s) {
           s.sub_steps);
   v.field({"recycle", "",
            "Relative displacement of two parts up to which their contacts are reused, divided by the diagonal of the "
-           "smallest part's bounding box. During the pour, three times this value is used. Larger values are faster, "
-           "but contacts are less exact.",
+           "smallest part's bounding box. During the pour, three times this value is used; while the heap is pressed "
+           "and checked, at most 0.001, and with the preset `quick` 0.0002. Larger values are faster, but contacts are "
+           "less exact.",
            above(0.0, 0.1)},
           s.recycle);
   v.field({"coarse_samples", "", "Number of surface samples of a part during the pour. Thin parts have more.",

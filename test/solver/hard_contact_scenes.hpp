@@ -166,6 +166,52 @@ inline Rebound pile_up_cubes(Lab lab, int count) {
   return out;
 }
 
+/// A body that slides over a row of boxes whose tops are level, from seam to seam.
+struct TileRide {
+  double edge;                    ///< of a box, m
+  double turn = 0.0;              ///< of what slides, about z, rad
+  double friction = 0.0;          ///< of what slides and of the boxes
+  bool on_floor = false;          ///< the boxes are free and of 10 times the mass, and lie on the floor
+  PartModelPtr slider = nullptr;  ///< instead of a box of edge x edge x edge / 2; its lowest face is flat
+  double gap = 1e-6;              ///< between the boxes / edge
+};
+struct Ridden {
+  double change = 0.0;    ///< largest change of the velocity / speed
+  double distance = 0.0;  ///< until it stops, or until the end / that of a body on a plane, v^2 / (2 mu g)
+  double lifted = 0.0;    ///< highest that it went / edge
+};
+/// Without friction, it goes at three times sqrt(g edge) over eight seams, and nothing stops it. With friction, it
+/// comes to rest.
+inline Ridden ride_over_tiles(Lab lab, const TileRide& ride) {
+  const double edge = ride.edge, top = ride.on_floor ? edge : 0.0, speed = 3.0 * std::sqrt(g * edge);
+  lab.def().bin.kind = ride.on_floor ? Bin::Kind::floor : Bin::Kind::none;
+  lab.def().bin.friction = 1.0;
+  const PartModelPtr slider = ride.slider ? ride.slider : box(Vec3(edge, edge, 0.5 * edge));
+  double low = 0.0;
+  for (const Vec3& vertex : slider->mesh().vertices) low = std::min(low, vertex.z() - slider->mass().center.z());
+  const double mass = 1000.0 * slider->mass().volume;
+  const Vec3 start(0, 0, top - low);
+  const auto body =
+      lab.place(slider, start, Quat(Eigen::AngleAxisd(ride.turn, Vec3::UnitZ())), material(ride.friction, 0.0, mass));
+  BodyDef tile = material(ride.friction, 0.0, 10.0 * mass);
+  tile.fixed = !ride.on_floor;
+  const PartModelPtr square = box(Vec3((1.0 - ride.gap) * edge, 6.0 * edge, edge));
+  for (int i = -2; i < 12; ++i) lab.place(square, Vec3(i * edge, 0, top - 0.5 * edge), Quat::Identity(), tile);
+  const Vec3 velocity(speed, 0, 0);
+  lab.start(body).velocity.linear = velocity;
+  lab.begin(phases::pour);
+  const double plane = ride.friction > 0.0 ? 0.5 * speed * speed / (ride.friction * g) : 8.0 * edge;
+  const double longest = ride.friction > 0.0 ? 1.5 * speed / (ride.friction * g) : 1.02 * plane / speed;
+  Ridden out;
+  while (lab.time() < longest && (ride.friction > 0.0 || lab.center(body).x() < plane)) {
+    lab.simulate(lab.solver().step_size());
+    out.change = std::max(out.change, (lab.state(body).velocity.linear - velocity).norm() / speed);
+    out.lifted = std::max(out.lifted, (lab.center(body) - start).z() / edge);
+  }
+  out.distance = lab.center(body).x() / plane;
+  return out;
+}
+
 /// A house of cards.
 struct CardHouse {
   static constexpr double length = 0.09, width = 0.06, thickness = 0.001, friction = 0.5;

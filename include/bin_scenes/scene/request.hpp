@@ -121,8 +121,8 @@ struct Pour {
   Pattern pattern = Pattern::rain;
   /// How much is done before a scene counts as finished. Each value includes the ones before it and takes more time.
   enum class Finish {
-    settled,  ///< parts rest on soft contacts and overlap by up to 0.1 % of their diagonal
-    pressed,  ///< stiff contacts have removed the overlap
+    settled,  ///< parts came to rest on soft contacts, and rested again after the contact forces were forgotten once
+    pressed,  ///< before that, stiff contacts have removed the overlap
     probed    ///< the heap stayed at rest on contacts without remembered forces and with less friction, so that no part
               ///< is about to tip or slip
   };
@@ -182,6 +182,8 @@ struct SphereSettings {
   int coarse_samples = 200;
   int fine_samples = 1000;
   double field_cell = 0.004;
+  /// Not a key: the limit of `recycle` while the heap is pressed and checked (share of the smallest part's diagonal).
+  double pressed_recycle = 1e-3;
   /// Not a key: the largest number of nodes of a distance field, whose cells are enlarged to meet it. make_solver()
   /// reduces the number if there are many models.
   std::size_t field_nodes = 8u << 20;

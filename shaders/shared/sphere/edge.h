@@ -115,8 +115,10 @@ INLINE bool is_outside(IN(Samples) other, IN(Field) field, IN(vec3) point) {
 
 // Finds the nearest edge of the other part that the edge from p to q crosses and on which a contact may press along the
 // common normal of both edges. `touch` contains the point and the gradient of the field, and gets point, normal and
-// distance of the crossing. Returns false, and leaves `touch` unchanged, if there is no such edge.
-INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(Touch) touch) {
+// distance of the crossing; `crossed` gets the number of the edge. Returns false, and leaves both unchanged, if there
+// is no such edge.
+INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(Touch) touch,
+                        INOUT(uint) crossed) {
   vec3 u = q - p, from = touch.point, out_of = touch.gradient;
   float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(touch.distance), SPHERE_EDGE_REACH * field.cell);
   bool found = false;
@@ -137,6 +139,7 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
     touch.point = on_u;
     touch.gradient = normal;
     touch.distance = dot(between, normal);
+    crossed = listed_edge(other, k);
     found = true;
   }
   return found;

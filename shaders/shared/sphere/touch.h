@@ -5,17 +5,25 @@
 // with all vectors in the frame of a, and View with these members: samples; other (samples of the field's body); own
 // (field of the samples' body); field; to_field and to_a (Carry: from the samples' frame to the frame of the field, and
 // from there to the frame of the pair's first body, which is the same if side is SPHERE_SIDE_B); drift and twist (m,
-// rad: the predicted motion of the samples' body relative to the field's body until the step ends); ahead (m, initially
-// 0); margin (m, the largest distance of a candidate); way_back.
+// rad: the predicted motion of the samples' body relative to the field's body until the step ends); fall (m: the share
+// of gravity in the drift); ahead (m, initially 0); margin (m, the largest distance of a candidate); slop (m, the
+// overlap that contacts leave); way_back.
 
 const float NEARLY_ALL = 0.99f;  // smallest cosine between an exit and its rotation into a cone: 8 degrees
 const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: within this angle, two faces count as lying on each other
 const float END = 1e-4f;    // share of an edge's length: a crossing that is nearer to an end is left to the node there
 const float LEANS = 0.02f;  // sine of the smallest angle at which an edge of the sample dips below the face
+const float LEVEL = 2.0f;   // slops: a sample within this distance of a face is level with it; a part that rests is one
+                            // slop deep, and deeper where more than its share of the weight presses
+const float ALONG = 0.1f;   // sine of the largest angle to a face at which a corner moves along it: 6 degrees
 
 // Returns the largest error of the field (m) near an edge of the surface.
 INLINE float error_of(IN(Field) field) {
   return field.ball > 0.0f ? 0.0f : 0.5f * field.cell;
+}
+
+INLINE float level_of(IN(View) view) {
+  return LEVEL * view.slop;
 }
 
 // Returns how far (m) a sample at `point`, where the field is `distance`, must move along a unit direction until it
@@ -205,6 +213,30 @@ INLINE Exit nearest_exit(IN(Walls) walls, IN(Exits) exits, IN(vec3) away, float 
   return least;
 }
 
+// Decides by which face a sample is held that is inside all faces at a sharp edge, after a share of its way (m) in this
+// step. The path alone does not tell: a part that slides from one level tile onto the next one rests a little deeper
+// than the top of the next tile, so that its path enters through the side. Of the faces that may press, the sample is
+// held by the one that would move it least at the end of the step, provided that the sample was already as low as this
+// face, and is level with it. Returns false if this is not so; the sample is then held where it enters.
+INLINE bool glides(IN(View) view, IN(Exits) exits, IN(Cone) cone, IN(vec3) way, float share, OUT(Exit) onto) {
+  float highest = 0.0f;
+  bool found = false, level = false;
+  onto = EXIT(exits, 0);
+  for (uint i = 0u; i < exits.count; ++i) {
+    Exit exit = EXIT(exits, i);
+    vec3 turned;
+    if (!turn(view, cone, exit.away, NEARLY_ALL, turned)) continue;
+    float present = exit.distance - share * dot(exit.away, way);
+    float end = exit.distance + max(1.0f - share, 0.0f) * dot(exit.away, way);
+    if (found && end <= highest) continue;
+    found = true;
+    highest = end;
+    level = present < level_of(view) && exit.distance > -level_of(view);
+    onto = exit;
+  }
+  return level;
+}
+
 // Emits the contacts of a sample. A sample that passes an edge before the step ends is held by the face that it will
 // face then, and not by the surface at its present position. Otherwise, the plane across the edge would stop it there,
 // for example a peg above the mouth of its hole. A sample that meets a surface on its path is held by that surface, as
@@ -231,6 +263,22 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
     if (!advances) break;
     Exit near = nearest_exit(walls, exits, at.gradient, at.distance);
     bool meets = near.distance <= 0.0f;
+    if (meets && exits.count > 0u && bounds_of(cone) != 0u) {
+      // The fall is left out, because the sample may be held up elsewhere.
+      vec3 way = drift - view.fall;
+      float share = i > 0 ? (done + least) / size : 0.0f;
+      if (i > 0) exits = exits_at_edge(view.other, view.field, touch.point + share * way);
+      bool several = i > 0 || (exits.count > 1u && EXIT(exits, 1).distance > -level_of(view));
+      Exit onto;
+      if (several && exits.count > 0u && glides(view, exits, cone, way, share, onto)) {
+        EXIT(exits, 0) = onto;
+        exits.count = 1u;
+        view.ahead = share * way;
+        at.point = touch.point + view.ahead;
+        at.distance = sample_field(view.field, at.point, at.gradient);
+        break;
+      }
+    }
     if (i == 0 && (meets || near.distance + dot(near.away, drift) >= 0.0f)) break;
     if (!meets && done >= size) {
       if (at.distance >= view.margin) return;
@@ -314,6 +362,47 @@ INLINE bool arrive(IN(View) view, IN(Edge) edge, INOUT(Touch) p, INOUT(Touch) q,
   return done > 0.0f;
 }
 
+// Returns whether the crossing of two edges is left to a corner where one of them ends: the edges approach each other
+// or overlap, they meet no farther from the corner than a level sample lies from a face, and the corner lies on a face
+// of the other edge and moves along it. For example, the vertical edges of a box that slides over level tiles cross the
+// edges of the tiles. The edge of the sample is between p and q at present; `normal` and `gap` (m) are those of the
+// crossing.
+INLINE bool slips_past(IN(View) view, IN(Edge) edge, IN(Edge) other, IN(vec3) p, IN(vec3) q, IN(vec3) normal,
+                       float gap) {
+  vec3 drift = view.drift + cross(view.twist, p) - view.fall;
+  float level = level_of(view), nears = -dot(normal, drift), s, t;
+  if ((nears < flush_in(view.field) && gap > -level) || edge.sharp == 0u || other.sharp == 0u) return false;
+  vec3 u = q - p, r = node_at(view.other, other.a), v = node_at(view.other, other.b) - r;
+  vec3 met = p + (gap > 0.0f && nears > 0.0f ? min(gap / nears, 1.0f) : 0.0f) * drift;
+  if (!nearest_points(u, dot(u, u), v, met - r, s, t)) return false;
+  Faces own_faces = faces_at(edge.cone, turned_back(view.to_field.rotation, u)), faces = faces_at(other.cone, v);
+  for (uint i = 0u; i < 8u; ++i) {
+    bool own = i < 4u, at_a = (i & 2u) == 0u, first = (i & 1u) == 0u;  // whose corner, at which end, on which face
+    float along = own ? s : t, from_end = at_a ? along : along - 1.0f;
+    if (abs(from_end) * (own ? length_of(edge) : length_of(other)) >= level) continue;
+    vec3 away = faces.normal_1, corner = p, face_at = r;
+    if (own) {
+      if (!first) away = faces.normal_2;
+      if (!at_a) corner = q;
+    } else {
+      away = view.to_field.rotation * (first ? own_faces.normal_1 : own_faces.normal_2);
+      corner = r;
+      if (!at_a) corner = r + v;
+      face_at = p;
+    }
+    if (abs(dot(corner - face_at, away)) >= level) continue;
+    if (gap > -level && abs(dot(drift, away)) >= ALONG * nears) continue;
+    vec3 pressed = -away;
+    if (own) {
+      pressed = turned_back(view.to_field.rotation, pressed);
+      if (turn_into_cone(cone_at(view.samples, at_a ? edge.a : edge.b), pressed, NEARLY_ALL)) return true;
+    } else if (turn_into_cone(cone_at(view.other, at_a ? other.a : other.b), pressed, NEARLY_ALL)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // Tests edge e between its ends `first` and `second`, and emits a candidate where it crosses an edge of the other part.
 // Returns whether offer() must be called for `touch`, the point of the edge that is, or will be, the deepest.
 INLINE bool touches_with_edge(IN(View) given, uint e, IN(Touch) first, IN(Touch) second, INOUT(Touch) touch) {
@@ -328,20 +417,24 @@ INLINE bool touches_with_edge(IN(View) given, uint e, IN(Touch) first, IN(Touch)
       if (end == 1) touch = q;
       if (!may_cross(view, edge, touch.distance)) continue;
     }
-    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch);
+    Touch deepest = touch;
+    uint other = 0u;
+    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch, other);
     vec3 along = q.point - p.point;
     float t = dot(touch.point - p.point, along) / dot(along, along);
     crossed = crossed && (!moved || (t > END && t < 1.0f - END));
-    if (!lowest && !crossed) continue;
     vec3 present = touch.point;
-    if (moved)
-      present = first.point + t * (second.point - first.point);
-    else if (touch.distance >= view.margin)
-      return false;
+    if (moved) present = first.point + t * (second.point - first.point);
+    crossed = crossed && !slips_past(view, edge, edge_at(view.other, other), first.point, second.point, touch.gradient,
+                                     touch.distance - dot(touch.gradient, touch.point - present));
+    if (!crossed) touch = deepest;
+    if (!lowest && !crossed) continue;
+    if (!moved && touch.distance >= view.margin) return false;
     view.ahead = touch.point - present;
     bool presses = crossed && press(view, touch.point, exit_of(OF_A_FACE, touch.gradient, touch.distance), edge.cone,
                                     e | SPHERE_EDGE);
     if (!lowest || presses) return false;
+    touch = deepest;
     if (moved) touch = touch_at(view, present);
     return touch.distance < view.margin;
   }

@@ -54,6 +54,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   if (base.recycle > 0) {
     w.settings.recycle = static_cast<float>(settings.recycle);
     w.settings.coarse_recycle = static_cast<float>(3.0 * settings.recycle);
+    w.settings.pressed_recycle = static_cast<float>(std::min(settings.recycle, settings.pressed_recycle));
   }
   w.gravity = def.gravity.cast<float>();
   w.wall_top = static_cast<float>(def.wall_height);

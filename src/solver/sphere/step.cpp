@@ -36,8 +36,8 @@ void step(World& world) {
   timed(find_contacts, world, spent.find_contacts);
   timed(wake_struck, world, spent.update_sleep);
   timed(color_manifolds, world, spent.color_manifolds);
-  timed(solve, world, spent.solve);
   note_depths(world);
+  timed(solve, world, spent.solve);
   if (world.cuts_rolling()) note_rolling(world);
   timed(update_sleep, world, spent.update_sleep);
   if (world.cold_steps > 0) --world.cold_steps;

@@ -83,7 +83,9 @@ struct Settings {
   float margin = 4e-3f;     ///< d: contacts are found up to this distance plus the displacement in one step; with half
                             ///< of it, a spike between others is thrown up by a hundredth of the height it fell
   float recycle = 1e-3f;    ///< d: contacts of a pair are reused until its relative pose has changed by this much
-  float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where less precision is needed
+  float coarse_recycle = 3e-3f;   ///< d: the same on coarse samples, where less precision is needed
+  float pressed_recycle = 1e-3f;  ///< d: the same on stiff and rigid contacts. If it is larger, parts are held by
+                                  ///< contacts that are no longer there when they are found anew
   /// s: duration without friction at the start of a probe, while normal forces are found. If it is longer, the heap is
   /// shaken; if it is shorter, wedged parts hold that would slip in another engine.
   float probe_slip = 2.5e-3f;
@@ -161,7 +163,6 @@ struct Manifold {
   Vec3f found_x = Vec3f::Zero();
   Quatf found_q = Quatf::Identity();
   bool found = false;
-  float depth = 0;  ///< m: largest depth of its contacts at the start of the step, if the step solves it
   Rolling rolling;
   std::vector<Contact> contacts;  ///< at most max_contacts; carrying a manifold to the next step does not copy them
 };
@@ -295,6 +296,11 @@ struct World {
     return plan;
   }
   bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }
+  /// Returns the change of the relative pose of a pair (d) up to which its contacts are reused.
+  float recycle() const {
+    if (!fine) return settings.coarse_recycle;
+    return stiffness == Stiffness::soft ? settings.recycle : settings.pressed_recycle;
+  }
   const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
 };
 
@@ -303,10 +309,10 @@ void find_pairs(World& world);       ///< finds candidate pairs, and matches the
 void find_contacts(World& world);    ///< tests samples against fields, selects contacts, and matches forces
 void wake_struck(World& world);      ///< wakes sleeping bodies that are hit in this step, and their islands
 void color_manifolds(World& world);  ///< colors manifolds so that no two of a color share a moving body
+void note_depths(World& world);      ///< records the deepest contact of this step in World::deepest
 void solve(World& world);            ///< solves the sub-steps, and moves the bodies
 void update_sleep(World& world);     ///< puts parts at rest to sleep
 
-void note_depths(World& world);   ///< records the deepest contact of this step in World::deepest
 void note_rolling(World& world);  ///< updates Manifold::rolling and World::rolling
 
 /// Returns the bodies, except fixed ones, that have contacts with this body, whether these carry a force or not.

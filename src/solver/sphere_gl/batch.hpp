@@ -102,8 +102,9 @@ class Batch {
   void find_pairs();
   void find_contacts();
   void color_manifolds();
-  void solve();
+  void prepare_rows();
   void note_depths();
+  void solve();
   void update_sleep();
   // The passes before and after a series of steps.
   void begin_watch();

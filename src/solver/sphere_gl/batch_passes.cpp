@@ -85,11 +85,12 @@ void Batch::color_manifolds() {
   gl::dispatch_groups(color_manifolds_, running_count_);
 }
 
+void Batch::prepare_rows() {
+  gl::Stage stage(timer_, "prepare_rows");
+  gl::dispatch_groups(prepare_rows_, SPHERE_PREPARE_GROUPS * running_count_);
+}
+
 void Batch::solve() {
-  {
-    gl::Stage stage(timer_, "prepare_rows");
-    gl::dispatch_groups(prepare_rows_, SPHERE_PREPARE_GROUPS * running_count_);
-  }
   gl::Stage stage(timer_, "solve");
   gl::dispatch_groups(solve_, running_count_);
 }
@@ -123,8 +124,9 @@ void Batch::step() {
   find_pairs();
   find_contacts();
   color_manifolds();
-  solve();
+  prepare_rows();
   note_depths();
+  solve();
   update_sleep();
 }
 

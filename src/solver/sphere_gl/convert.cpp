@@ -58,6 +58,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.margin = s.margin;
   out.recycle = s.recycle;
   out.coarse_recycle = s.coarse_recycle;
+  out.pressed_recycle = s.pressed_recycle;
   out.rest_move = s.rest_move;
   out.touch_move = s.touch_move;
   out.restitution_speed = s.restitution_speed;
@@ -67,7 +68,8 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
 
 void copy_phase(const World& world, gpu::SphereProgress& progress) {
   progress.fine = world.fine ? 1 : 0;
-  static_assert(static_cast<gpu::uint>(Stiffness::rigid) == SPHERE_RIGID);
+  static_assert(static_cast<gpu::uint>(Stiffness::soft) == SPHERE_SOFT &&
+                static_cast<gpu::uint>(Stiffness::rigid) == SPHERE_RIGID);
   progress.stiffness = static_cast<gpu::uint>(world.stiffness);
   progress.friction_share = world.friction_share;
   static_assert(static_cast<gpu::uint>(sphere::Sleep::by_part) == SPHERE_SLEEP_BY_PART &&

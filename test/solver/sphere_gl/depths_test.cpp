@@ -40,12 +40,13 @@ TEST(SphereGlDepths, AreThoseOfTheTwin) {
     ASSERT_EQ(batch.progress(slot).overflow, 0u);
     batch.download(slot, world);
     take_order(world);
-    batch.solve();
+    batch.prepare_rows();
     batch.note_depths();
+    batch.solve();
     world.clock += batch.progress(slot).time_step;
     const sphere::DeepestContact before = world.deepest;
-    solve(world);
     note_depths(world);
+    solve(world);
     batch.update_sleep();
     const gpu::SphereWorst worst = batch.worst(slot);
     found += world.deepest.time != before.time;

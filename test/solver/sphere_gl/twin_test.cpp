@@ -169,6 +169,7 @@ TEST_P(TwinTest, ASlotForAManifoldHasOneOwner) {
     ASSERT_EQ(slots.size(), image.pairs.size()) << step;
     ASSERT_LT(*slots.rbegin(), image.manifolds.size()) << step;
     batch.color_manifolds();
+    batch.prepare_rows();
     batch.solve();
     batch.update_sleep();
   }
@@ -204,6 +205,7 @@ TEST_F(SphereGl, AListThatIsKeptGivesThePairsOfOneThatIsMadeAnew) {
     batch.remove(anew);
     find_all(batch, slot);
     batch.color_manifolds();
+    batch.prepare_rows();
     batch.solve();
     batch.update_sleep();
     world = downloaded(batch, slot, world);
@@ -254,6 +256,7 @@ TEST_F(SphereGl, ManifoldsKeepTheirColors) {
     moved.clear();
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
       if (world.bodies[i].moves()) moved.insert(i);
+    batch.prepare_rows();
     batch.solve();
     batch.update_sleep();
     world = downloaded(batch, slot, world);
@@ -330,6 +333,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     batch.color_manifolds();
     batch.download(slot, world);
     take_order(world);
+    batch.prepare_rows();
     batch.solve();
     solve(world);
     const World seen = downloaded(batch, slot, world);
@@ -359,6 +363,7 @@ TEST_P(TwinTest, UpdateSleepSettlesWhomTheTwinSettles) {
     const Batch::Slot slot = load(batch, world);
     find_all(batch, slot);
     batch.color_manifolds();
+    batch.prepare_rows();
     batch.solve();
     batch.download(slot, world);
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {

@@ -152,11 +152,8 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
     const Bodies bodies(contact_time, a, b);
-    m.depth = 0;
-    for (std::uint32_t k = 0; k < m.contacts.size(); ++k) {
+    for (std::uint32_t k = 0; k < m.contacts.size(); ++k)
       set_lane(rows[bundle.first + k], lane, m.contacts[k], bodies, warm);
-      m.depth = std::max(m.depth, -rows[bundle.first + k].separation[lane]);
-    }
   }
   const Velocities velocities = velocities_of(bundle, motions);
   const Vec3f& g = world.gravity;

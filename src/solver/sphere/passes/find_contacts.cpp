@@ -5,8 +5,8 @@
 #include "solver/sphere/invariants.hpp"
 #include "solver/sphere/math.hpp"
 #include "solver/sphere/passes/candidates.hpp"
+#include "solver/sphere/passes/contact_gap.hpp"
 #include "solver/sphere/passes/reduce.hpp"
-#include "solver/sphere/passes/strikes.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <tbb/blocked_range.h>
@@ -53,10 +53,12 @@ RelativePose relative_pose(const Body& a, const Body* b) {
 bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
   if (!m.found) return false;
   if (world.is_ball(world.bodies[m.a]) || (m.b != ground && world.is_ball(world.bodies[m.b]))) return false;
-  const float limit = (world.fine ? world.settings.recycle : world.settings.coarse_recycle) * size;
+  const float limit = world.recycle() * size;
   const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
   const float moved = std::max((now.x - m.found_x).norm(), half_turn * size), fresh = STRIKE * limit;
-  return moved < limit && (moved <= fresh || !strikes(world, m, world.settings.time_step, fresh));
+  const float seconds =
+      world.settings.time_step + world.plan().sub_step;  // the last sweeps look into the next sub-step
+  return moved < limit && (moved <= fresh || !strikes(world, m, seconds, fresh));
 }
 
 /// Returns the motion of b, or of the ground if there is no b, relative to a in this step. Gravity is left out: it

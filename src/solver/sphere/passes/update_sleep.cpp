@@ -1,7 +1,7 @@
 #include "core/disjoint_sets.hpp"
 
 #include "solver/sphere/invariants.hpp"
-#include "solver/sphere/passes/strikes.hpp"
+#include "solver/sphere/passes/contact_gap.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Whether two bodies are about to hit each other.
+/// The gap of a contact at the present poses, and whether two bodies are about to hit each other. GLSL: contact_gap.h.
 #pragma once
 
 #include "solver/sphere/world.hpp"
@@ -13,10 +13,17 @@ inline Vec3f normal_of(const Contact& c, const Body& a, const Body* b) {
   return field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
 }
 
+/// Return the points of a contact on the surfaces of a and b (m, bin frame) at the present poses.
+inline Vec3f on_a(const Contact& c, const Body& a) {
+  return a.x + a.rotation * c.anchor_a;
+}
+inline Vec3f on_b(const Contact& c, const Body* b) {
+  return b ? Vec3f(b->x + b->rotation * c.anchor_b) : c.anchor_b;
+}
+
 /// Returns the gap (m) of a contact along its normal at the present poses; negative if the bodies overlap.
 inline float separation(const Contact& c, const Body& a, const Body* b) {
-  const Vec3f on_a = a.x + a.rotation * c.anchor_a, on_b = b ? Vec3f(b->x + b->rotation * c.anchor_b) : c.anchor_b;
-  return (on_b - on_a).dot(normal_of(c, a, b));
+  return (on_b(c, b) - on_a(c, a)).dot(normal_of(c, a, b));
 }
 
 /// Returns whether a contact of the pair that does not press yet closes within `seconds`, or all but `left` (m) of its
