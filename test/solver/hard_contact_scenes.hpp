@@ -98,8 +98,8 @@ inline Rebound strike_light_cube(Lab lab, double mass, double offset = 0.0) {
   return out;
 }
 
-/// Two cubes of `ratio` times the mass of a third one, `gap` (edges) from it, strike it from both sides at once: fastest
-/// that it is / their speed. Exactly, nothing moves afterwards.
+/// Two cubes of `ratio` times the mass of a third one, `gap` (edges) from it, strike it from both sides at once:
+/// fastest that it is / their speed. Exactly, nothing moves afterwards.
 inline double asymmetry_of_impact(Lab lab, double edge, double ratio, double gap) {
   lab.def().bin.kind = Bin::Kind::none;
   lab.def().gravity.setZero();

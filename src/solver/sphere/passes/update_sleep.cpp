@@ -1,3 +1,5 @@
+/// Puts islands of bodies at rest to sleep, and wakes those that something hits or presses on. GPU form:
+/// shaders/sphere/update_sleep.comp and, for what is hit, color_manifolds.comp.
 #include "core/disjoint_sets.hpp"
 
 #include "solver/sphere/invariants.hpp"
