@@ -157,7 +157,7 @@ TEST(DeviceWatch, ReadsThirtyTwoBytesOfAWorld) {
     watches.back().begin_world(ids.back());
   }
   const auto bytes = [&] { return solver->profile().counters.at("gl_bytes_read_back"); };
-  constexpr std::uint64_t states = (5 + 8 + 11) * 144 + 3 * (160 + 32 + 48);
+  constexpr std::uint64_t states = (5 + 8 + 11) * 144 + 3 * (176 + 32 + 48);
   constexpr int slices = 60;
   double time = 0.0;
   for (int k = 1; k <= slices; ++k) {
