@@ -87,6 +87,11 @@ bool pair_strikes(SphereWorld world, SpherePair pair, float seconds) {
 
 // Wakes sleeping bodies that are hit in this step, and their islands. Twin: wake_struck().
 #define island_is_struck(i) used_low[i]
+// Returns the index of the island of a body in its world. A body that came from the host has no label yet.
+uint island_of(SphereWorld world, uint body) {
+  uint label = states[body].flags.y;
+  return (label == 0u ? body : label - 1u) - world.bodies.x;
+}
 void wake_struck(SphereWorld world, uint w, uint list, uint count) {
   float seconds = progress[w].time_step + plan_of(w).sub_step;  // the last sweeps look ahead by a sub-step
   FOR_OWN(i, world.bodies.y) island_is_struck(i) = 0u;
@@ -95,14 +100,14 @@ void wake_struck(SphereWorld world, uint w, uint list, uint count) {
   FOR_OWN(p, count) {
     SpherePair pair = pairs[list + p];
     if (pair.b == SPHERE_GROUND || sleeps(pair.a) == sleeps(pair.b) || !pair_strikes(world, pair, seconds)) continue;
-    island_is_struck(states[sleeps(pair.a) ? pair.a : pair.b].flags.y - world.bodies.x) = 1u;
+    island_is_struck(island_of(world, sleeps(pair.a) ? pair.a : pair.b)) = 1u;
     some_struck = 1u;
   }
   barrier();
   if (some_struck == 0u) return;
   FOR_OWN(i, world.bodies.y) {
     uint body = world.bodies.x + i;
-    if (!sleeps(body) || island_is_struck(states[body].flags.y - world.bodies.x) == 0u) continue;
+    if (!sleeps(body) || island_is_struck(island_of(world, body)) == 0u) continue;
     states[body].flags.x &= ~SPHERE_ASLEEP;
     states[body].still_position.w = progress[w].time_step;  // it does not fall
   }

@@ -26,7 +26,7 @@ void note_motion(uint body, uint w) {
 // sleep again at once if it does not move; in mode by_touch, after the rest window.
 void settle(uint body, uint label, bool stays_awake, uint w) {
   uint flags = states[body].flags.x;
-  states[body].flags.y = label;
+  states[body].flags.y = label + 1u;
   if ((flags & SPHERE_PRESENT) == 0u || bodies[body].material.x == 0.0) return;
   bool asleep = (flags & SPHERE_ASLEEP) != 0u;
   if (!stays_awake && !asleep) {

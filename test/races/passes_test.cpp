@@ -35,7 +35,8 @@ Observations watch(Scene scene) {
 
 const Observations& sphere() {
   static const Observations seen = watch([](Recorder& recorder) {
-    watch_waking(recorder);  // first: few dispatches of a kind are kept
+    watch_waking(recorder, 0.04, 2e-5, 1);  // first: few dispatches of a kind are kept
+    watch_waking(recorder, 0.5, 5e-4, 0);
     watch_heaps(recorder, {});
     watch_carpet(recorder, {});
     watch_overflow(recorder, {});

@@ -164,7 +164,7 @@ void Recorder::keep(const Record& record) {
   std::string key = record.pass.name;
   const auto stage = record.dispatch.uniforms.find("stage");
   if (stage != record.dispatch.uniforms.end()) key += std::to_string(stage->second);
-  if (++kept_[key] <= 2) seen_.records.push_back(record);
+  if (++kept_[key] <= 3) seen_.records.push_back(record);
 }
 
 }  // namespace bin_scenes::races

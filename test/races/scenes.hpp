@@ -125,8 +125,10 @@ inline void watch_carpet(Recorder& recorder, const sphere_gl::Capacity& capacity
   recorder.end();
 }
 
-/// Blocks that fall onto a plate asleep: all are of one color, until the plate wakes.
-inline void watch_waking(Recorder& recorder) {
+/// Blocks that fall onto a plate asleep at `speed` (m/s), with a `gap` (m): all are of one color, until the plate
+/// wakes. A block that is fast wakes it as it strikes, a slow one by pressing in the step before the one that is
+/// watched.
+inline void watch_waking(Recorder& recorder, double speed, double gap, int steps_before) {
   WorldDef def;
   def.parts = {PartModel::from_mesh(testing::box_mesh({0.018, 0.02, 0.022}), "block"),
                PartModel::from_mesh(testing::box_mesh({0.2, 0.2, 0.02}), "plate")};
@@ -142,11 +144,11 @@ inline void watch_waking(Recorder& recorder) {
   asleep.begins_asleep = true;
   solver->set_phase(world, asleep);
   for (std::size_t i = 0; i < 4; ++i) {
-    state.pose.position = Vec3(0.04 * static_cast<double>(i) - 0.06, 0, 0.0315);
-    state.velocity.linear = Vec3(0, 0, -0.5);
+    state.pose.position = Vec3(0.04 * static_cast<double>(i) - 0.06, 0, 0.031 + gap);
+    state.velocity.linear = Vec3(0, 0, -speed);
     solver->insert(world, i, state);
   }
-  solver->advance({world}, solver->step_size());
+  for (int k = 0; k < steps_before; ++k) solver->advance({world}, solver->step_size());
   recorder.begin();
   solver->advance({world}, solver->step_size());
   recorder.end();
