@@ -252,8 +252,8 @@ struct SphereState {
   vec4 still_position;     // position near which the body has stayed since it last moved (m); w: time spent there (s)
   vec4 still_orientation;  // orientation of the body at that position
   vec4 position_rest, velocity_rest;  // remainders of position and velocity that single precision loses: add_exactly
-  uvec4 flags;       // x: SPHERE_PRESENT etc.; y: label of the island + 1, 0: none; z: 1 if the body was inserted again; w: number
-                     // of the last observation in which it had moved (world_watch.hpp)
+  uvec4 flags;       // x: SPHERE_PRESENT etc.; y: label of the island + 1, 0: none; z: 1 if the body was inserted again;
+                     // w: number of the last observation in which it had moved (world_watch.hpp)
 };
 
 struct SphereTensor {  // values of a body at the time when contacts were found
