@@ -86,7 +86,7 @@ bool pair_strikes(SphereWorld world, SpherePair pair, float seconds) {
 }
 
 // Wakes sleeping bodies that are hit in this step, and their islands. Twin: wake_struck().
-#define island_is_struck(i) used_low[i]
+#define island_is_struck(i) lowest[i]  // coloring writes it only behind two more barriers
 // Returns the index of the island of a body in its world. A body that came from the host has no label yet.
 uint island_of(SphereWorld world, uint body) {
   uint label = states[body].flags.y;
@@ -111,8 +111,7 @@ void wake_struck(SphereWorld world, uint w, uint list, uint count) {
     states[body].flags.x &= ~SPHERE_ASLEEP;
     states[body].still_position.w = progress[w].time_step;  // it does not fall
   }
-  memoryBarrierBuffer();
-  barrier();
+  memoryBarrierBuffer();  // the barrier is that of keep_colors()
 }
 
 void claim(uint i, uvec2 bit) {
