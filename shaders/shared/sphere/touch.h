@@ -372,17 +372,17 @@ INLINE bool slips_past(IN(View) view, IN(Edge) edge, IN(Edge) other, IN(vec3) p,
   vec3 u = q - p, r = node_at(view.other, other.a), v = node_at(view.other, other.b) - r;
   vec3 met = p + (gap > 0.0f && nears > 0.0f ? min(gap / nears, 1.0f) : 0.0f) * drift;
   if (!nearest_points(u, dot(u, u), v, met - r, s, t)) return false;
-  Faces own_faces = faces_at(edge.cone, turned_back(view.to_field.rotation, u)), faces = faces_at(other.cone, v);
   for (uint i = 0u; i < 8u; ++i) {
     bool own = i < 4u, at_a = (i & 2u) == 0u, first = (i & 1u) == 0u;  // whose corner, at which end, on which face
     float along = own ? s : t, from_end = at_a ? along : along - 1.0f;
     if (abs(from_end) * (own ? length_of(edge) : length_of(other)) >= level) continue;
+    Faces faces = own ? faces_at(other.cone, v) : faces_at(edge.cone, turned_back(view.to_field.rotation, u));
     vec3 away = faces.normal_1, corner = p, face_at = r;
+    if (!first) away = faces.normal_2;
     if (own) {
-      if (!first) away = faces.normal_2;
       if (!at_a) corner = q;
     } else {
-      away = view.to_field.rotation * (first ? own_faces.normal_1 : own_faces.normal_2);
+      away = view.to_field.rotation * away;
       corner = r;
       if (!at_a) corner = r + v;
       face_at = p;
