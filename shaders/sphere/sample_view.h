@@ -11,34 +11,31 @@ struct View {
   Field own, field;
   Carry to_field, to_a;
   uint side;
-  vec3 drift, twist, fall;
+  vec3 drift, twist;
   float margin, slop;
   bool way_back;
   vec3 ahead;
 };
 
-// Predicted motion of a body relative to another one until the step ends, in the frame of the other one (m, rad). fall:
-// share of gravity in the drift.
+// Predicted motion of a body relative to another one until the step ends, in the frame of the other one (m, rad). It is
+// without gravity: the body may be held up.
 struct Drift {
-  vec3 drift, twist, fall;
+  vec3 drift, twist;
 };
 
 Drift drift_of(uint points, Placement at, uint over, Placement frame) {
   float rest = time_step - plan.contact_time + plan.sub_step;  // the last sweeps look ahead by another sub-step
-  vec3 v = vec3(0.0), w = vec3(0.0), frame_v = vec3(0.0), frame_w = vec3(0.0), falls = vec3(0.0);
-  vec3 fall = time_step * worlds[world_index].gravity.xyz;
+  vec3 v = vec3(0.0), w = vec3(0.0), frame_v = vec3(0.0), frame_w = vec3(0.0);
   if (moves(points)) {
-    v = states[points].velocity.xyz + fall;
+    v = states[points].velocity.xyz;
     w = states[points].spin.xyz;
-    falls += fall;
   }
   if (moves(over)) {
-    frame_v = states[over].velocity.xyz + fall;
+    frame_v = states[over].velocity.xyz;
     frame_w = states[over].spin.xyz;
-    falls -= fall;
   }
   return Drift(rest * ((v - frame_v + cross(w, frame.position - at.position)) * frame.rotation),
-               rest * ((w - frame_w) * frame.rotation), rest * (falls * frame.rotation));
+               rest * ((w - frame_w) * frame.rotation));
 }
 
 // Returns the samples of a (of_a) or b with the field of the other body, at the poses of the contact time. margin: m.
@@ -57,7 +54,7 @@ View view_of(SpherePair pair, Placement a, Placement b, bool of_a, float margin)
   }
   Drift goes = drift_of(own, at, other, frame);
   return View(samples_of(own), samples_of(other), field_of(bodies[own].ids.x), field_of(bodies[other].ids.x),
-              to_field, to_a, of_a ? 0u : SPHERE_SIDE_B, goes.drift, goes.twist, goes.fall, margin,
+              to_field, to_a, of_a ? 0u : SPHERE_SIDE_B, goes.drift, goes.twist, margin,
               settings.softness[0].z * worlds[world_index].gravity.w, true, vec3(0.0));
 }
 

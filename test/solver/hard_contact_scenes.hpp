@@ -168,12 +168,12 @@ inline Rebound pile_up_cubes(Lab lab, int count) {
 
 /// A body that slides over a row of boxes whose tops are level, from seam to seam.
 struct TileRide {
-  double edge;                    ///< of a box, m
-  double turn = 0.0;              ///< of what slides, about z, rad
-  double friction = 0.0;          ///< of what slides and of the boxes
-  bool on_floor = false;          ///< the boxes are free and of 10 times the mass, and lie on the floor
-  PartModelPtr slider = nullptr;  ///< instead of a box of edge x edge x edge / 2; its lowest face is flat
-  double gap = 1e-6;              ///< between the boxes / edge
+  double edge;          ///< of a box, m
+  double turn;          ///< of what slides, about z, rad
+  double friction;      ///< of what slides and of the boxes
+  bool on_floor;        ///< the boxes are free and of 10 times the mass, and lie on the floor
+  PartModelPtr slider;  ///< what slides, on a flat face
+  double gap = 1e-6;    ///< between the boxes / edge
 };
 struct Ridden {
   double change = 0.0;    ///< largest change of the velocity / speed
@@ -186,7 +186,7 @@ inline Ridden ride_over_tiles(Lab lab, const TileRide& ride) {
   const double edge = ride.edge, top = ride.on_floor ? edge : 0.0, speed = 3.0 * std::sqrt(g * edge);
   lab.def().bin.kind = ride.on_floor ? Bin::Kind::floor : Bin::Kind::none;
   lab.def().bin.friction = 1.0;
-  const PartModelPtr slider = ride.slider ? ride.slider : box(Vec3(edge, edge, 0.5 * edge));
+  const PartModelPtr& slider = ride.slider;
   double low = 0.0;
   for (const Vec3& vertex : slider->mesh().vertices) low = std::min(low, vertex.z() - slider->mass().center.z());
   const double mass = 1000.0 * slider->mass().volume;

@@ -5,9 +5,8 @@
 // with all vectors in the frame of a, and View with these members: samples; other (samples of the field's body); own
 // (field of the samples' body); field; to_field and to_a (Carry: from the samples' frame to the frame of the field, and
 // from there to the frame of the pair's first body, which is the same if side is SPHERE_SIDE_B); drift and twist (m,
-// rad: the predicted motion of the samples' body relative to the field's body until the step ends); fall (m: the share
-// of gravity in the drift); ahead (m, initially 0); margin (m, the largest distance of a candidate); slop (m, the
-// overlap that contacts leave); way_back.
+// rad: the predicted motion of the samples' body relative to the field's body until the step ends); ahead (m, initially
+// 0); margin (m, the largest distance of a candidate); slop (m, the overlap that contacts leave); way_back.
 
 const float NEARLY_ALL = 0.99f;  // smallest cosine between an exit and its rotation into a cone: 8 degrees
 const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: within this angle, two faces count as lying on each other
@@ -213,12 +212,12 @@ INLINE Exit nearest_exit(IN(Walls) walls, IN(Exits) exits, IN(vec3) away, float 
   return least;
 }
 
-// Decides by which face a sample is held that is inside all faces at a sharp edge, after a share of its way (m) in this
-// step. The path alone does not tell: a part that slides from one level tile onto the next one rests a little deeper
-// than the top of the next tile, so that its path enters through the side. Of the faces that may press, the sample is
-// held by the one that would move it least at the end of the step, provided that the sample was already as low as this
-// face, and is level with it. Returns false if this is not so; the sample is then held where it enters.
-INLINE bool glides(IN(View) view, IN(Exits) exits, IN(Cone) cone, IN(vec3) way, float share, OUT(Exit) onto) {
+// Decides by which face a sample is held that is inside all faces at a sharp edge, after a share of its drift. The path
+// alone does not tell: a part that slides from one level tile onto the next one rests a little deeper than the top of
+// the next tile, so that its path enters through the side. Of the faces that may press, the sample is held by the one
+// that would move it least at the end of the step, provided that the sample was already as low as this face, and is
+// level with it. Returns false if this is not so; the sample is then held where it enters.
+INLINE bool glides(IN(View) view, IN(Exits) exits, IN(Cone) cone, IN(vec3) drift, float share, OUT(Exit) onto) {
   float highest = 0.0f;
   bool found = false, level = false;
   onto = EXIT(exits, 0);
@@ -226,8 +225,8 @@ INLINE bool glides(IN(View) view, IN(Exits) exits, IN(Cone) cone, IN(vec3) way, 
     Exit exit = EXIT(exits, i);
     vec3 turned;
     if (!turn(view, cone, exit.away, NEARLY_ALL, turned)) continue;
-    float present = exit.distance - share * dot(exit.away, way);
-    float end = exit.distance + max(1.0f - share, 0.0f) * dot(exit.away, way);
+    float present = exit.distance - share * dot(exit.away, drift);
+    float end = exit.distance + max(1.0f - share, 0.0f) * dot(exit.away, drift);
     if (found && end <= highest) continue;
     found = true;
     highest = end;
@@ -263,17 +262,18 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
     if (!advances) break;
     Exit near = nearest_exit(walls, exits, at.gradient, at.distance);
     bool meets = near.distance <= 0.0f;
-    if (meets && exits.count > 0u && bounds_of(cone) != 0u) {
-      // The fall is left out, because the sample may be held up elsewhere.
-      vec3 way = drift - view.fall;
-      float share = i > 0 ? (done + least) / size : 0.0f;
-      if (i > 0) exits = exits_at_edge(view.other, view.field, touch.point + share * way);
-      bool several = i > 0 || (exits.count > 1u && EXIT(exits, 1).distance > -level_of(view));
+    if (exits.count > 1u && (meets || i > 0) && bounds_of(cone) != 0u) {
+      float share = done > 0.0f ? done / size : 0.0f;
+      if (meets && i > 0) {  // a little farther, because all faces that may hold the sample are seen from inside only
+        share += least / size;
+        exits = exits_at_edge(view.other, view.field, touch.point + share * drift);
+      }
+      bool several = exits.count > 1u && (i > 0 || EXIT(exits, 1).distance > -level_of(view));
       Exit onto;
-      if (several && exits.count > 0u && glides(view, exits, cone, way, share, onto)) {
+      if (several && glides(view, exits, cone, drift, share, onto)) {
         EXIT(exits, 0) = onto;
         exits.count = 1u;
-        view.ahead = share * way;
+        view.ahead = share * drift;
         at.point = touch.point + view.ahead;
         at.distance = sample_field(view.field, at.point, at.gradient);
         break;
@@ -369,23 +369,23 @@ INLINE bool arrive(IN(View) view, IN(Edge) edge, INOUT(Touch) p, INOUT(Touch) q,
 // crossing.
 INLINE bool slips_past(IN(View) view, IN(Edge) edge, IN(Edge) other, IN(vec3) p, IN(vec3) q, IN(vec3) normal,
                        float gap) {
-  vec3 drift = view.drift + cross(view.twist, p) - view.fall;
+  vec3 drift = view.drift + cross(view.twist, p);
   float level = level_of(view), nears = -dot(normal, drift), s, t;
   if ((nears < flush_in(view.field) && gap > -level) || edge.sharp == 0u || other.sharp == 0u) return false;
   vec3 u = q - p, r = node_at(view.other, other.a), v = node_at(view.other, other.b) - r;
   vec3 met = p + (gap > 0.0f && nears > 0.0f ? min(gap / nears, 1.0f) : 0.0f) * drift;
   if (!nearest_points(u, dot(u, u), v, met - r, s, t)) return false;
-  Faces own_faces = faces_at(edge.cone, turned_back(view.to_field.rotation, u)), faces = faces_at(other.cone, v);
   for (uint i = 0u; i < 8u; ++i) {
     bool own = i < 4u, at_a = (i & 2u) == 0u, first = (i & 1u) == 0u;  // whose corner, at which end, on which face
     float along = own ? s : t, from_end = at_a ? along : along - 1.0f;
     if (abs(from_end) * (own ? length_of(edge) : length_of(other)) >= level) continue;
+    Faces faces = own ? faces_at(other.cone, v) : faces_at(edge.cone, turned_back(view.to_field.rotation, u));
     vec3 away = faces.normal_1, corner = p, face_at = r;
+    if (!first) away = faces.normal_2;
     if (own) {
-      if (!first) away = faces.normal_2;
       if (!at_a) corner = q;
     } else {
-      away = view.to_field.rotation * (first ? own_faces.normal_1 : own_faces.normal_2);
+      away = view.to_field.rotation * away;
       corner = r;
       if (!at_a) corner = r + v;
       face_at = p;

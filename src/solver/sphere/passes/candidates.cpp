@@ -38,13 +38,12 @@ void candidates_of_rim(const World& world, std::size_t k, const Shape& shape, co
 
 /// How the points of a body go on over another one, in whose frame this is given.
 struct Drift {
-  Vec3f drift, twist, fall;
+  Vec3f drift, twist;
 
   Drift(float seconds, const Placement& points, const Placement& over) {
     const Mat3f back = over.rotation.transpose();
     drift = seconds * (back * (points.v - over.v + points.w.cross(over.x - points.x)));
     twist = seconds * (back * (points.w - over.w));
-    fall = seconds * (back * (points.fall - over.fall));
   }
 };
 
@@ -65,8 +64,6 @@ void candidates_of_pair(const World& world, const Manifold& m, const Placement& 
   of_b.side = SPHERE_SIDE_B;
   of_a.drift = a_goes.drift, of_a.twist = a_goes.twist;
   of_b.drift = b_goes.drift, of_b.twist = b_goes.twist;
-  of_a.fall = a_goes.fall;
-  of_b.fall = b_goes.fall;
   of_a.margin = of_b.margin = margin;
   of_a.slop = of_b.slop = world.settings.soft.slop * world.smallest_size;
   of_a.way_back = of_b.way_back = world.settings.way_back;

@@ -24,15 +24,12 @@ using Candidates = std::vector<Candidate>;
 struct Placement {
   Vec3f x;
   Mat3f rotation;
-  Vec3f v = Vec3f::Zero(), w = Vec3f::Zero();  ///< velocities including the change by gravity in the step
-  Vec3f fall = Vec3f::Zero();                  ///< this change (m/s)
+  Vec3f v = Vec3f::Zero(), w = Vec3f::Zero();  ///< velocities, without gravity in the step: the body may be held up
 
   Placement(const World& world, const Body& body) : x(body.x), rotation(body.rotation) {
     if (!body.moves()) return;
     v = body.v;
     w = body.w;
-    if (body.inverse_mass > 0) fall = world.settings.time_step * world.gravity;
-    v += fall;
     x += world.plan().contact_time * body.v;
     rotation = integrated(body.q, body.w, world.plan().contact_time).toRotationMatrix();
   }

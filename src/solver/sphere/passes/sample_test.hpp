@@ -33,7 +33,6 @@ struct View {
   std::uint32_t side = 0;        ///< SPHERE_SIDE_B if the field is that of the pair's first body, else 0
   Vec3f drift = Vec3f::Zero(),
         twist = Vec3f::Zero();  ///< predicted motion of the samples in the field until the step ends (m, rad)
-  Vec3f fall = Vec3f::Zero();   ///< share of gravity in `drift` (m)
   float margin = 0;             ///< largest separation of a candidate (m)
   float slop = 0;               ///< overlap that contacts leave while parts move (m)
   bool way_back = false;        ///< Settings::way_back
