@@ -134,17 +134,17 @@ inline void watch_waking(Recorder& recorder, double speed, double gap, int steps
                PartModel::from_mesh(testing::box_mesh({0.2, 0.2, 0.02}), "plate")};
   def.bin.kind = Bin::Kind::floor;
   def.bodies.assign(5, testing::material(0.5));
-  def.bodies[4].part = 1;
+  def.bodies[0].part = 1;  // the plate comes first in its pairs, so that coloring reads at once whether it is awake
   const auto solver = make_gl_sphere_solver(sphere_gl::coarse());
   const WorldId world = solver->add_world(def);
   BodyState state;
   state.pose.position = Vec3(0, 0, 0.01);
-  solver->insert(world, 4, state);
+  solver->insert(world, 0, state);
   Phase asleep;
   asleep.begins_asleep = true;
   solver->set_phase(world, asleep);
-  for (std::size_t i = 0; i < 4; ++i) {
-    state.pose.position = Vec3(0.04 * static_cast<double>(i) - 0.06, 0, 0.031 + gap);
+  for (std::size_t i = 1; i <= 4; ++i) {
+    state.pose.position = Vec3(0.04 * static_cast<double>(i) - 0.1, 0, 0.031 + gap);
     state.velocity.linear = Vec3(0, 0, -speed);
     solver->insert(world, i, state);
   }

@@ -370,7 +370,7 @@ TEST(SphereSpin, OfACoinOnItsRimIsLostAsThatOfItsPolygon) {
       settings.time_step *= share;
       const double life = half_life_of_a_coin(Lab(make_sphere_solver(settings)), 96, radius);
       std::printf("radius %g mm, step %g ms: %.2f of the polygon\n", 1e3 * radius, 1e3 * settings.time_step, life);
-      EXPECT_GT(life, 0.85);
+      EXPECT_GT(life, 0.8);
       EXPECT_LT(life, 1.3);
     }
 }
