@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace bin_scenes::sphere {
@@ -97,6 +98,26 @@ TEST(Shape, ClustersHoldTheirNodesAndEdges) {
       EXPECT_EQ(s.edges[e].a / cluster_size, c);
       EXPECT_LE((s.nodes[s.edges[e].b] - s.clusters[c].center).norm(), s.clusters[c].radius * 1.0001f);
     }
+}
+
+TEST(Shape, EveryEdgeIsListedOnceWithItsFirstNode) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02});
+  const Samples& s = shape.fine;
+  ASSERT_EQ(s.edges_from.size(), s.nodes.size() + 1);
+  EXPECT_EQ(s.edges_from.front(), 0u);
+  EXPECT_EQ(s.edges_from.back(), s.first_edge.back());
+  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+    float longest = -std::numeric_limits<float>::infinity();
+    for (std::uint32_t e = s.edges_from[i]; e < s.edges_from[i + 1]; ++e) {
+      EXPECT_EQ(s.edges[e].a, i);
+      longest = std::max(longest, s.edges[e].length);
+    }
+    EXPECT_EQ(s.longest_edges[i / cluster_size][i % cluster_size], longest);
+    EXPECT_LE(s.nodes[i].norm(), s.extent);
+  }
+  for (std::size_t c = 0; c < s.clusters.size(); ++c)
+    EXPECT_EQ(s.cluster_radii[c / clusters_at_once][c % clusters_at_once], s.clusters[c].radius);
 }
 
 TEST(BroadPhase, FindsEveryPairWhoseSurfacesAreNear) {

@@ -30,6 +30,10 @@ void expect_same(const sphere::Samples& a, const sphere::Samples& b) {
   expect_same_bytes(a.clusters, b.clusters);
   expect_same_bytes(a.first_edge, b.first_edge);
   expect_same_bytes(a.cluster_points, b.cluster_points);
+  expect_same_bytes(a.cluster_radii, b.cluster_radii);
+  expect_same_bytes(a.longest_edges, b.longest_edges);
+  expect_same_bytes(a.edges_from, b.edges_from);
+  EXPECT_EQ(a.extent, b.extent);
   EXPECT_EQ(a.spacing, b.spacing);
   EXPECT_EQ(a.face_spacing, b.face_spacing);
   EXPECT_EQ(a.sag, b.sag);

@@ -20,6 +20,7 @@
 #include "solver/sphere/shapes/field.hpp"
 #include "solver/sphere/shapes/sharp_edges.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -45,15 +46,20 @@ struct Samples {
   std::vector<Vec3f> nodes;                              ///< in cluster order
   std::vector<Cone> cones;                               ///< normal cones of the nodes
   std::vector<Points<cluster_size>> node_points;         ///< the same nodes, in groups of one cluster
-  std::vector<Edge> edges;                               ///< in order of the cluster of their first node, then creases
+  std::vector<Edge> edges;                               ///< in order of their first node, then creases
   std::vector<Vec3f> crease_ends;                        ///< end points of creases, numbered after the nodes
   std::vector<Ball> clusters;                            ///< spheres around nodes 16 c to 16 c + 15 and their edges
   std::vector<std::uint32_t> first_edge;                 ///< by cluster: index of its first edge; then the end
   std::vector<Points<clusters_at_once>> cluster_points;  ///< centres of the clusters, in groups of eight
-  EdgeGrid edge_grid;                                    ///< made by make_shape(), with the field
-  float spacing = 0;                                     ///< m: length of the longest piece of an edge
-  float face_spacing = 0;                                ///< m: mean distance between neighbouring nodes on faces
-  float sag = 0;                                         ///< m: height by which a curved face may bulge between nodes
+  std::vector<std::array<float, clusters_at_once>> cluster_radii;  ///< their radii; -infinity where there is no cluster
+  std::vector<std::array<float, cluster_size>> longest_edges;  ///< by cluster and node: length (m) of the longest edge
+                                                               ///< whose first node it is; -infinity if there is none
+  std::vector<std::uint32_t> edges_from;  ///< by node: index of the first edge whose first node it is; then the end
+  float extent = 0;                       ///< m: largest distance of a node from the centre of mass
+  EdgeGrid edge_grid;                     ///< made by make_shape(), with the field
+  float spacing = 0;                      ///< m: length of the longest piece of an edge
+  float face_spacing = 0;                 ///< m: mean distance between neighbouring nodes on faces
+  float sag = 0;                          ///< m: height by which a curved face may bulge between nodes
   float radius = 0;  ///< m: radius of the nodes, 0 for points; a ball is one node with its own radius
 };
 

@@ -3,6 +3,7 @@
 #include "bin_scenes/core/assertion.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -49,6 +50,23 @@ void lay_out(Samples& samples) {
   for (std::size_t i = 0; i < samples.cluster_points.size() * clusters_at_once; ++i)
     samples.cluster_points[i / clusters_at_once].set(i % clusters_at_once,
                                                      samples.clusters[std::min(i, samples.clusters.size() - 1)].center);
+  constexpr float none = -std::numeric_limits<float>::infinity();
+  samples.cluster_radii.resize(samples.cluster_points.size());
+  for (auto& radii : samples.cluster_radii) radii.fill(none);
+  for (std::size_t i = 0; i < samples.clusters.size(); ++i)
+    samples.cluster_radii[i / clusters_at_once][i % clusters_at_once] = samples.clusters[i].radius;
+  samples.longest_edges.resize(samples.node_points.size());
+  for (auto& lengths : samples.longest_edges) lengths.fill(none);
+  samples.edges_from.assign(samples.nodes.size() + 1, 0);
+  for (std::uint32_t e = 0; e < samples.first_edge.back(); ++e) {
+    const Edge& edge = samples.edges[e];
+    ++samples.edges_from[edge.a + 1];
+    float& longest = samples.longest_edges[edge.a / cluster_size][edge.a % cluster_size];
+    longest = std::max(longest, edge.length);
+  }
+  std::partial_sum(samples.edges_from.begin(), samples.edges_from.end(), samples.edges_from.begin());
+  samples.extent = 0;
+  for (const Vec3f& node : samples.nodes) samples.extent = std::max(samples.extent, node.norm());
 }
 
 Samples clustered(Draft draft, const Vec3& center, double spacing) {

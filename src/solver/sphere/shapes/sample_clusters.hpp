@@ -9,7 +9,8 @@ namespace bin_scenes::sphere {
 /// Returns the samples in the body frame. `center`: centre of mass (model frame, m); `spacing`: of edges (m).
 Samples clustered(Draft draft, const Vec3& center, double spacing);
 
-/// Copies nodes and cluster centres into Points, by component; the last point also fills the unused places at the end.
+/// Makes the members of Samples that repeat others in another order: nodes and cluster centres by component (the last
+/// point also fills the unused places at the end), and the edges of each node.
 void lay_out(Samples& samples);
 
 }  // namespace bin_scenes::sphere

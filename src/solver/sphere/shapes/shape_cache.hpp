@@ -5,6 +5,7 @@
 
 #include "bin_scenes/core/profile.hpp"
 #include "bin_scenes/scene/request.hpp"
+#include "solver/sphere/shapes/sample_clusters.hpp"
 #include "solver/sphere/shapes/shape.hpp"
 
 #include <functional>
@@ -16,7 +17,8 @@ namespace bin_scenes::sphere {
 
 class ShapeCache {
  public:
-  /// @param change  is applied to each shape after it is made; none: shapes are not changed
+  /// @param change  is applied to each shape after it is made, before its samples are laid out anew; none: shapes are not
+  ///                changed
   explicit ShapeCache(const SphereSettings& settings, std::function<void(Shape&)> change = {})
       : settings_(settings), change_(std::move(change)) {}
 
@@ -28,7 +30,10 @@ class ShapeCache {
       entry.part = part;  // the address is the key; this keeps it valid
       entry.shape = std::make_unique<Shape>(make_shape(*part, settings_.coarse_samples, settings_.fine_samples,
                                                        settings_.field_cell, settings_.field_nodes));
-      if (change_) change_(*entry.shape);
+      if (change_) {
+        change_(*entry.shape);
+        for (Samples* samples : {&entry.shape->coarse, &entry.shape->fine}) lay_out(*samples);
+      }
     }
     return *entry.shape;
   }
