@@ -67,7 +67,7 @@ std::vector<Row> overlaps(bool soak) {
     row.cases.push_back(into_wall(0.99 * share));
     row.cases.push_back(heap(share));
     row.cases.push_back(linked_rings(share));
-    // Set apart for its overlap and its squeeze; at other time steps, the rings came apart or stayed linked before, too.
+    // It is set apart for overlap and squeeze. Whether the rings come apart depends on the time step.
     if (percent == 50) row.known["sphere: a ring through another's rim"] = restarted;
     // Overlap stands for energy nobody accounts for: lifting a part out of the floor takes some. Speeds are judged.
     for (Case& c : row.cases) c.expect.energy = std::numeric_limits<double>::infinity();

@@ -17,8 +17,7 @@ namespace bin_scenes::sphere {
 
 class ShapeCache {
  public:
-  /// @param change  is applied to each shape after it is made, before its samples are laid out anew; none: shapes are not
-  ///                changed
+  /// @param change  is applied to each shape after it is made, and its samples are laid out again; none: no changes
   explicit ShapeCache(const SphereSettings& settings, std::function<void(Shape&)> change = {})
       : settings_(settings), change_(std::move(change)) {}
 
