@@ -10,7 +10,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double most_growth = 0.9;  ///< 1/s: with 1.1, a cube moves by 3 % of its diagonal before it is at rest
+constexpr double most_growth = 0.95;  ///< 1/s: with 1.1, a cube moves by 3 % of its diagonal before it is at rest
 constexpr double measured = 1.5;  ///< factor of the rate, for cubes of 5 mm to 0.3 m under 2 to 1000 times their mass
 constexpr double stiff_sub_steps = 4.0;  ///< of stiff contacts, in place of one
 constexpr double slippery = 1e-3;        ///< friction coefficient below which nothing is held
