@@ -3,6 +3,10 @@
 
 #include "solver/sphere/world.hpp"
 
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
 namespace bin_scenes::sphere {
 
 inline Mesh box_mesh(const Vec3& size) {
@@ -32,6 +36,27 @@ inline World world_of_boxes(const Shape& shape, std::size_t count) {
     world.bodies.push_back(b);
   }
   return world;
+}
+
+/// Two bars of 0.2 x 0.02 x 0.02 m on their edges, one across the other, whose edges overlap by `depth` (m). They cross
+/// off the middle, so that no node lies at the crossing.
+inline World crossed_bars(const Shape& bar, float depth) {
+  World world = world_of_boxes(bar, 2);
+  world.fine = true;
+  const float half_diagonal = 0.01f * std::sqrt(2.0f), right = static_cast<float>(M_PI) / 2;
+  world.bodies[0].q = Quatf(Eigen::AngleAxisf(0.5f * right, Vec3f::UnitX()));
+  world.bodies[1].q = Quatf(Eigen::AngleAxisf(right, Vec3f::UnitZ())) * world.bodies[0].q;
+  world.bodies[1].x = Vec3f(0.0137f, 0.0071f, 2 * half_diagonal - depth);
+  return world;
+}
+
+/// A model of the folder models, or null if BIN_SCENES_MODELS does not name this folder.
+inline PartModelPtr sample_part(const std::string& file) {
+  const char* models = std::getenv("BIN_SCENES_MODELS");
+  if (!models) return nullptr;
+  LoadOptions options;
+  options.unit = Unit::millimetre;
+  return PartModel::load(models + ("/" + file), options);
 }
 
 }  // namespace bin_scenes::sphere

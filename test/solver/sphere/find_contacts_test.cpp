@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace bin_scenes::sphere {
 namespace {
@@ -35,14 +34,8 @@ TEST(NarrowPhase, CornerInAFaceGivesDepthAndNormal) {
 TEST(NarrowPhase, CrossedEdgesMeetBetweenNodes) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.2, 0.02, 0.02}, 0.004);
-  World world = world_of_boxes(shape, 2);
-  world.fine = true;
-  // Two bars on their edges, one across the other, off the middle so that no node lies at the crossing.
-  const float half_diagonal = 0.01f * std::sqrt(2.0f), depth = 0.0005f;
-  const Quatf on_edge(Eigen::AngleAxisf(static_cast<float>(M_PI) / 4, Vec3f::UnitX()));
-  world.bodies[0].q = on_edge;
-  world.bodies[1].q = Quatf(Eigen::AngleAxisf(static_cast<float>(M_PI) / 2, Vec3f::UnitZ())) * on_edge;
-  world.bodies[1].x = Vec3f(0.0137f, 0.0071f, 2 * half_diagonal - depth);
+  const float depth = 0.0005f;
+  World world = crossed_bars(shape, depth);
   find_pairs(world);
   find_contacts(world);
   ASSERT_EQ(world.manifolds.size(), 1u);
@@ -385,11 +378,8 @@ TEST(NarrowPhase, NoContactOfABentStripIsDeeperThanItsLowestVertex) {
 // The folds of a teapot's handle lie about the angle that makes an edge: edges where it is bent most, a face between
 // them. However the teapot lies, its lowest vertex is felt.
 TEST(NarrowPhase, WhatSticksOutBetweenEdgesIsFelt) {
-  const char* models = std::getenv("BIN_SCENES_MODELS");
-  if (!models) GTEST_SKIP() << "BIN_SCENES_MODELS is not set";
-  LoadOptions options;
-  options.unit = Unit::millimetre;
-  const PartModelPtr part = PartModel::load(std::string(models) + "/teapot.stl", options);
+  const PartModelPtr part = sample_part("teapot.stl");
+  if (!part) GTEST_SKIP() << "BIN_SCENES_MODELS is not set";
   const Shape shape = make_shape(*part, 200, 1000, 0.004);
   World world = world_of_boxes(shape, 1);
   world.fine = true;

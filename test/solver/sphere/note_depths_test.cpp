@@ -7,13 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <string>
 
 namespace bin_scenes::sphere {
 namespace {
 
-/// The depth (m) that is noted in the first step of two bodies of one shape; b is at rest at x and q, a at the origin.
+/// Returns the depth (m) that the first step of two bodies at rest notes. The second one is at x and q.
 float noted(World& world, const Vec3f& x, const Quatf& q = Quatf::Identity()) {
   world.gravity.setZero();
   world.bodies[1].x = x;
@@ -57,25 +55,18 @@ TEST(NoteDepths, OfACornerInAFaceIsHowFarItIsIn) {
 TEST(NoteDepths, OfCrossedEdgesIsAtLeastHowFarOnePointIsIn) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.2, 0.02, 0.02}, 0.004);
-  World world = world_of_boxes(shape, 2);
-  world.fine = true;
-  const float half_diagonal = 0.01f * std::sqrt(2.0f), depth = 0.001f;
-  const Quatf on_edge(Eigen::AngleAxisf(static_cast<float>(M_PI) / 4, Vec3f::UnitX()));
-  world.bodies[0].q = on_edge;
-  const Quatf across = Quatf(Eigen::AngleAxisf(static_cast<float>(M_PI) / 2, Vec3f::UnitZ())) * on_edge;
-  const float noted_depth = noted(world, Vec3f(0.0137f, 0.0071f, 2 * half_diagonal - depth), across);
-  EXPECT_LE(noted_depth, depth + 1e-6f);
-  EXPECT_GE(noted_depth, depth / std::sqrt(2.0f) - 0.1f * shape.field.cell) << "from an edge to the nearest face";
+  const float depth = 0.001f;
+  World world = crossed_bars(shape, depth);
+  const float found = noted(world, world.bodies[1].x, world.bodies[1].q);
+  EXPECT_LE(found, depth + 1e-6f);
+  EXPECT_GE(found, depth / std::sqrt(2.0f) - 0.1f * shape.field.cell) << "from an edge to the nearest face";
 }
 
 // Along their normals, contacts of teeth that overlap by 2 % of d were up to 7 % of d deep, and four of sixteen heaps
 // of gears were set apart for it.
 TEST(NoteDepths, OfGearsAreNotAboveThatOfTheirDeepestPoint) {
-  const char* models = std::getenv("BIN_SCENES_MODELS");
-  if (!models) GTEST_SKIP() << "BIN_SCENES_MODELS is not set";
-  LoadOptions options;
-  options.unit = Unit::millimetre;
-  const PartModelPtr gear = PartModel::load(std::string(models) + "/gear_spur.stl", options);
+  const PartModelPtr gear = sample_part("gear_spur.stl");
+  if (!gear) GTEST_SKIP() << "BIN_SCENES_MODELS is not set";
   const Shape shape = make_shape(*gear, 100, 400, 0.02);
   World world = world_of_boxes(shape, 2);
   Random random(7, 0, Stream::probe);
