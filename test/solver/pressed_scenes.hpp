@@ -93,6 +93,25 @@ inline double tip_on_tip(Lab lab, const Tips& tips) {
   return rise.most();
 }
 
+/// A wedge falls with its edge first from `height` (edges of the cubes) between two cubes of a quarter of its mass,
+/// which stand 0.2 % of an edge apart: how much farther one cube is pushed than the other / edge, at any time.
+inline double uneven_split(Lab lab, double edge, double height) {
+  lab.def().bin.friction = 0.01;
+  const PartModelPtr wedge = PartModel::from_mesh(wedge_mesh(0.4 * edge, edge, 0.8 * edge), "wedge");
+  const PartModelPtr cube = box(Vec3::Constant(edge));
+  lab.place(wedge, Vec3(0, 0, height * edge) + wedge->mass().center, Quat::Identity(), material(0.01, 0.0, 4.0));
+  std::array<std::size_t, 2> cubes;
+  for (const int side : {0, 1})
+    cubes[side] =
+        lab.place(cube, Vec3(side == 0 ? -0.501 : 0.501, 0, 0.5) * edge, Quat::Identity(), material(0.01, 0.0, 1.0));
+  double most = 0.0;
+  while (lab.time() < 1.1 * std::sqrt(edge / g)) {
+    lab.simulate(lab.solver().step_size());
+    most = std::max(most, std::abs(lab.center(cubes[0]).x() + lab.center(cubes[1]).x()) / edge);
+  }
+  return most;
+}
+
 /// What each side of a groove presses with on a frictionless wedge of weight W in it / W: 1 / (2 sin of half its
 /// angle).
 inline double pressed_in_groove(Lab lab, double slim) {

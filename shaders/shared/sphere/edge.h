@@ -289,14 +289,22 @@ INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(
   return count > 2u;
 }
 
-// Returns the exits from `other` of a point within one cell of sharp edges, computed from the planes of the faces that
-// meet there. Inside all faces, each face is an exit. Outside, there is one exit: to the nearest edge, or along the
-// normal of its face. The list is empty if no edge is near.
+// Returns the distance (m) from a sharp edge up to which the grid cannot tell its two faces apart, and the exits are
+// those of the edge: one cell for a right angle. In a wedge, the face is as far from the plane of symmetry there as at a
+// right angle; with one cell for all edges, points on the side of a wedge were held by its tip.
+INLINE float exact_within(IN(Field) field, IN(Cone) cone) {
+  float sharpness = max(dot(bound_at(cone, 0u), bound_at(cone, 1u)), 0.0f);  // cosine of the angle of the edge
+  return min(field.cell / sqrt(max(1.0f - sharpness, 1e-6f)), SPHERE_EDGE_REACH * field.cell);
+}
+
+// Returns the exits from `other` of a point near sharp edges (exact_within()), computed from the planes of the faces
+// that meet there. Inside all faces, each face is an exit. Outside, there is one exit: to the nearest edge, or along
+// the normal of its face. The list is empty if no edge is near.
 INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float flush = flush_in(field);
   EdgesBeside found;
   found.faces.count = 0u;
-  found.nearest = field.cell;
+  found.nearest = SPHERE_EDGE_REACH * field.cell;
   found.outside = exit_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
   vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // nearest corner of edges that the point lies beyond the ends of
   Range list = edges_near(other, field, point);
@@ -310,7 +318,7 @@ INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
       if (length(point - end) < length(point - corner)) corner = end;
       continue;
     }
-    if (length(off) < field.cell) add_edge(found, edge.cone, along, off);
+    if (length(off) < exact_within(field, edge.cone)) add_edge(found, edge.cone, along, off);
   }
   if (found.faces.count == 0u && is_at_corner(other, field, point, corner)) {
     float distance = length(point - corner);

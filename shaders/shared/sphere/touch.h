@@ -236,6 +236,28 @@ INLINE bool glides(IN(View) view, IN(Exits) exits, IN(Cone) cone, IN(vec3) drift
   return level;
 }
 
+// Finds the face by which a sample enters a wedge, an edge of less than a right angle, where it is inside both faces
+// after a share of its drift: the face that it passes last. From its present place in front of the edge, the sample
+// would be held along the line to the edge, although it moves past the edge along the side of the wedge. Returns false
+// if the edge is no wedge, or if no face may press.
+INLINE bool enters_wedge(IN(View) view, IN(Exits) exits, IN(Cone) cone, IN(vec3) drift, float share, OUT(Exit) onto) {
+  const float right = -0.05f;  // cosine between the normals of an edge of 87 degrees
+  float last = 0.0f;
+  bool found = false;
+  onto = EXIT(exits, 0);
+  if (dot(EXIT(exits, 0).away, EXIT(exits, 1).away) > right) return false;
+  for (uint i = 0u; i < 2u; ++i) {
+    Exit exit = EXIT(exits, i);
+    vec3 turned;
+    float nears = -dot(exit.away, drift), present = exit.distance + share * nears;
+    if (nears <= 0.0f || present <= last * nears || !turn(view, cone, exit.away, NEARLY_ALL, turned)) continue;
+    last = present / nears;
+    onto = exit;
+    found = true;
+  }
+  return found;
+}
+
 // Emits the contacts of a sample. A sample that passes an edge before the step ends is held by the face that it will
 // face then, and not by the surface at its present position. Otherwise, the plane across the edge would stop it there,
 // for example a peg above the mouth of its hole. A sample that meets a surface on its path is held by that surface, as
@@ -270,7 +292,8 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
       }
       bool several = exits.count > 1u && (i > 0 || EXIT(exits, 1).distance > -level_of(view));
       Exit onto;
-      if (several && glides(view, exits, cone, drift, share, onto)) {
+      bool held = several && glides(view, exits, cone, drift, share, onto);
+      if (held || (meets && i > 0 && exits.count > 1u && enters_wedge(view, exits, cone, drift, share, onto))) {
         EXIT(exits, 0) = onto;
         exits.count = 1u;
         view.ahead = share * drift;
