@@ -1,18 +1,42 @@
 // The work of one invocation on one body in the solve. sphere/solve_manifold.h states how velocities are stored.
 // Needs the bindings Settings, Progress, Bodies, Shapes, States and sphere/body.h.
 #include "sphere/solve_step.h"
+#include "shared/sphere/gyroscope.h"
 
-// Returns the angular velocity after h seconds of torque-free rotation, by the implicit midpoint rule on Euler's
-// equations. The rule conserves kinetic energy and |L|, both quadratic (Hairer, Lubich, Wanner 2006, IV.2). Only the
-// change is rotated to world axes: otherwise, rounding would change |L| by a thousandth in ten thousand sub-steps.
-vec3 gyrated(vec3 spin, vec4 orientation, SphereShape shape, float h) {
-  if (dot(spin, spin) * h * h < 1e-8) return spin;  // below 1e-4 rad per sub-step, the term is smaller than rounding
+// Returns the change of the angular velocity over h seconds in the body frame, by the implicit midpoint rule for Euler's
+// equations. It conserves the energy and the length of the angular momentum. Twin: gyroscope.hpp.
+vec3 gyroscopic_change(vec3 spin, vec4 orientation, SphereShape shape, float h) {
   vec3 before = rotate(quat_conjugate(orientation), spin), change = vec3(0.0);
   for (int i = 0; i < 6; ++i) {
     vec3 mid = before + 0.5 * change, momentum = symmetric_times(shape.inertia.xyz, shape.inertia_mixed.xyz, mid);
     change = -h * symmetric_times(shape.inverse_inertia.xyz, shape.inverse_inertia_mixed.xyz, cross(mid, momentum));
   }
-  return spin + rotate(orientation, change);
+  return change;
+}
+
+// Whether the gyroscopic torque is more than rounding.
+bool gyrates(uint i, float h) { return dot(spin_of(i).xyz, spin_of(i).xyz) * h * h >= LEAST_GYRATION * LEAST_GYRATION; }
+
+vec4 turned_by(vec3 turn, vec4 orientation) { return normalize(quat_multiply(quat_of_turn(turn), orientation)); }
+
+// Turns body i, which nothing touches, for h seconds. Half of the change of its spin comes before the rotation, so that
+// it turns with the mean spin: this conserves the direction of the angular momentum as well. Only changes are rotated
+// to world axes: otherwise, rounding would change |L| by a thousandth in ten thousand sub-steps.
+void turn_freely(uint i, float h) {
+  uint body = world.bodies.x + i;
+  SphereShape shape = shapes[bodies[body].ids.x];
+  vec4 orientation = states[body].orientation;
+  vec3 w = spin_of(i).xyz;
+  int steps = steps_of_free_turn(length(w) * h);
+  h /= float(steps);
+  for (int k = 0; k < steps; ++k) {
+    vec3 half_change = 0.5 * gyroscopic_change(w, orientation, shape, h * time_of_free_turn(length(w) * h));
+    w += rotate(orientation, half_change);
+    orientation = turned_by(h * w, orientation);
+    w += rotate(orientation, half_change);
+  }
+  states[body].orientation = orientation;
+  spin_of(i) = vec4(w, 0.0);
 }
 
 // Returns the speed (m/s) of body i: root of the squared velocity + squared (angular velocity x radius).
@@ -38,8 +62,10 @@ void integrate_velocity(uint i, float h) {
   add_exactly(h * world.gravity.xyz, v, rest);
   velocity_of(i).xyz = v;
   states[body].velocity_rest.xyz = rest;
-  vec4 own = spin_of(i);  // all components, because other invocations may have written the last one
-  spin_of(i) = vec4(gyrated(own.xyz, states[body].orientation, shapes[bodies[body].ids.x], h), own.w);
+  if (spin_of(i).w == 0.0 || !gyrates(i, h)) return;  // integrate_position() turns what nothing touches
+  vec4 own = spin_of(i), orientation = states[body].orientation;
+  vec3 change = gyroscopic_change(own.xyz, orientation, shapes[bodies[body].ids.x], h);
+  spin_of(i) = vec4(own.xyz + rotate(orientation, change), own.w);
 }
 
 // Moves body i for h seconds. Sliding friction brakes steadily: with the speed at the end of a sub-step, a sliding part
@@ -49,11 +75,14 @@ void integrate_position(uint i, float h) {
   float slow = 4.0 * h * length(world.gravity.xyz);  // m/s: a slower body stops within a few sub-steps
   if (turned_of(i).w == 1.0 && moved_of(i).w > slow) h *= mean_share(moved_of(i).w, speed_of(i));
   moved_of(i).xyz += h * velocity_of(i).xyz;
-  // A body without near contacts follows the parabola of free fall exactly.
-  if (spin_of(i).w == 0.0) moved_of(i).xyz -= 0.5 * h * h * world.gravity.xyz;
+  bool flies = spin_of(i).w == 0.0;  // without near contacts: it follows the parabola of free fall exactly
+  if (flies) moved_of(i).xyz -= 0.5 * h * h * world.gravity.xyz;
   turned_of(i).xyz += h * spin_of(i).xyz;
   uint body = world.bodies.x + i;
-  states[body].orientation = normalize(quat_multiply(quat_of_turn(h * spin_of(i).xyz), states[body].orientation));
+  if (flies && gyrates(i, h))
+    turn_freely(i, h);
+  else
+    states[body].orientation = turned_by(h * spin_of(i).xyz, states[body].orientation);
 }
 
 // Stores the pose and the velocity of body i at the end of the step. Returns whether the body fell freely.

@@ -242,6 +242,77 @@ inline Tumble tumble(Lab lab) {
   return result;
 }
 
+/// What a body that nothing touches loses while it turns by tens of radians.
+struct FreeTurn {
+  double momentum = 0.0;  ///< largest change of the vector of the angular momentum / its length
+  double energy = 0.0;    ///< largest change of the kinetic energy / kinetic energy
+  double rate = 0.0;      ///< error of how fast it turns / exact value
+};
+/// Simulates a body alone for `seconds`, which turns at `spin` (rad/s), and calls `look(lab)` after each step.
+template <class Look>
+FreeTurn turn_freely(Lab& lab, const PartModelPtr& part, const Vec3& spin, double seconds, const Look& look) {
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  lab.place(part, Vec3::Zero());
+  lab.start(0).velocity.angular = spin;
+  const Vec3 momentum = lab.spin(0, lab.start(0));
+  const double energy = lab.kinetic_energy(0, lab.start(0));
+  FreeTurn result;
+  while (lab.time() < seconds) {
+    lab.simulate(lab.solver().step_size());
+    result.momentum = std::max(result.momentum, (lab.spin(0) - momentum).norm() / momentum.norm());
+    result.energy = std::max(result.energy, std::abs(lab.kinetic_energy(0) / energy - 1.0));
+    look(lab);
+  }
+  return result;
+}
+
+/// A disc with this diameter (m) that spins about an axis close to its own. Both its axis and the disc about it turn
+/// evenly (Landau and Lifshitz, Mechanics, paragraph 35): q(t) = exp(L t / I1) exp(w3 (1 - I3 / I1) t e3).
+inline FreeTurn spin_freely(Lab lab, double size) {
+  const double unit = std::sqrt(size / g), w1 = 3.0 / unit, w3 = 15.0 / unit;
+  const PartModelPtr disc = PartModel::from_mesh(prism_mesh(24, 0.5 * size, -0.1 * size, 0.1 * size), "disc");
+  const Mat3 inertia = disc->mass().inertia;
+  const Vec3 mean = Vec3(w1, 0.0, inertia(2, 2) / inertia(0, 0) * w3);  // L / I1
+  const double own = w3 * (1.0 - inertia(2, 2) / inertia(0, 0));
+  FreeTurn result = turn_freely(lab, disc, Vec3(w1, 0.0, w3), 6.0 * unit, [](const Lab&) {});
+  const Quat exact = Quat(Eigen::AngleAxisd(mean.norm() * lab.time(), mean.normalized())) *
+                     Quat(Eigen::AngleAxisd(own * lab.time(), Vec3::UnitZ()));
+  result.rate = lab.state(0).pose.orientation.angularDistance(exact) / (mean.norm() * lab.time());
+  return result;
+}
+
+/// A board with this length (m) that spins about its middle axis and turns over again and again (Dzhanibekov). Its spin
+/// about that axis is b sn(t l, k), with half a period of 2 K(k) / l between two changes of its sign (Landau and
+/// Lifshitz, paragraph 37).
+inline FreeTurn turn_over_freely(Lab lab, double size) {
+  const double unit = std::sqrt(size / g);
+  const PartModelPtr board = box(Vec3(1.0, 0.6, 0.2) * size);
+  const Vec3 spin = Vec3(2.0, 20.0, 0.0) / unit, inertia = board->mass().inertia.diagonal();
+  const double energy = inertia.dot(spin.cwiseAbs2()), momentum = inertia.cwiseProduct(spin).squaredNorm();  // 2 T, L^2
+  const double low = momentum - energy * inertia[0], high = energy * inertia[2] - momentum;
+  const double rate = std::sqrt((inertia[1] - inertia[0]) * high / inertia.prod());
+  const double modulus = std::sqrt((inertia[2] - inertia[1]) * low / ((inertia[1] - inertia[0]) * high));
+  const double half = 2.0 * std::comp_ellint_1(modulus) / rate;
+  const double most = std::sqrt(low / (inertia[1] * (inertia[1] - inertia[0])));  // b
+  double before = spin.y(), since = 0.0, last = 0.0;
+  int turns = 0;
+  FreeTurn result = turn_freely(lab, board, spin, 24.0 * unit, [&](const Lab& now) {
+    const BodyState state = now.state(0);
+    const double about = (state.pose.orientation.conjugate() * state.velocity.angular).y();
+    if (about * before < 0.0) {
+      const bool earlier = std::abs(before) < std::abs(about);
+      const double share = (earlier ? before : about) / std::copysign(most, about);
+      last = (earlier ? since : now.time()) - std::ellint_1(modulus, std::asin(share)) / rate;
+      ++turns;
+    }
+    before = about;
+    since = now.time();
+  });
+  result.rate = std::abs(last / ((turns - 0.5) * half) - 1.0);  // the first half began in its middle
+  return result;
+}
+
 /// Boxes on each other for `seconds`, turned by `heading` about the vertical: largest displacement of any / edge.
 inline double stack_drift(Lab lab, double seconds, double heading = 0.0, const Vec3& size = Vec3::Constant(0.04),
                           int count = 10) {

@@ -1,6 +1,7 @@
 #include "pour/settling.hpp"
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
+#include "solver/free_turns.hpp"
 #include "solver/hard_contacts.hpp"
 #include "solver/impacts.hpp"
 #include "solver/pressed.hpp"
@@ -434,6 +435,7 @@ INSTANTIATE_TEST_SUITE_P(Sphere, HardContacts, ::testing::Values(sphere_default)
 INSTANTIATE_TEST_SUITE_P(Sphere, TightFits, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Pressing, ::testing::ValuesIn(sphere_steps()), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, WorstContacts, ::testing::ValuesIn(sphere_steps()), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, FreeTurns, ::testing::ValuesIn(sphere_steps()), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, SphereSteps, ::testing::ValuesIn(sphere_steps()), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, CoarseSteps, ::testing::Values(sphere_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, UncutSteps, ::testing::Values(sphere_uncut), name);

@@ -14,8 +14,13 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-/// Heaviest / lightest part of worlds that solve impacts exactly; beyond, most_impact_sweeps does not suffice.
-constexpr float exact_mass_ratio = 120;
+/// Heaviest / lightest part, times the number of bodies, of worlds that solve impacts exactly: 120 for 48 bodies.
+/// Beyond it, the sweeps take too long.
+constexpr float exact_work = 120 * 48;
+/// Sweeps in which an impact with a light part between heavy ones is shared, times heaviest / lightest part. Theory
+/// asks for half the logarithm of speed / tolerance, 6. With 20, rounding has moved the light part by 2e-4 of the
+/// speed.
+constexpr float least_exact_sweeps = 10;
 
 Body make_body(const Shape& shape, std::uint32_t index, const BodyDef& def) {
   Body body;
@@ -89,7 +94,10 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   BIN_SCENES_ASSERT(w.effort >= 1 && w.cuts >= 1 && w.settings.sub_steps >= 1);
   BIN_SCENES_ASSERT(each_is(w.bodies, [](const Body& b) { return b.inverse_mass >= 0 && b.inertia.allFinite(); }));
   w.mass_ratio = mass_ratio_of(w);
-  w.exact_impacts = def.exact_impacts && w.mass_ratio <= exact_mass_ratio;
+  w.exact_impacts = def.exact_impacts && w.mass_ratio * static_cast<float>(w.bodies.size()) <= exact_work;
+  if (w.exact_impacts)
+    w.settings.most_impact_sweeps =
+        std::max(w.settings.most_impact_sweeps, static_cast<int>(least_exact_sweeps * w.mass_ratio));
   w.mass_effort = effort_of_masses(w);
   w.settings.push_speed = push_speed_of_masses(w);
   return w;

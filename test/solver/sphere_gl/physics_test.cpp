@@ -1,5 +1,6 @@
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
+#include "solver/free_turns.hpp"
 #include "solver/sphere/world.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 #include "solver/worst_contacts.hpp"
@@ -39,6 +40,7 @@ TEST(SphereGlSwing, AboutARidgeIsLostToThePatchOfTheContact) {
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device
 INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl), name);
+INSTANTIATE_TEST_SUITE_P(SphereGl, FreeTurns, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, Counted, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, Extremes, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, WorstContacts, ::testing::Values(sphere_gl), name);

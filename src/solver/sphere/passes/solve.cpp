@@ -55,7 +55,7 @@ class ContactSolver {
 
   void prepare();  ///< rows from contacts, with the forces of the last step
   std::uint64_t falling() const { return static_cast<std::uint64_t>(std::count(free_.begin(), free_.end(), 1)); }
-  void accelerate();  ///< gravity, gyroscopic term
+  void accelerate();  ///< gravity, and the gyroscopic term of what is touched
   void warm_start();  ///< impulses of the last sub-step again
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
@@ -112,6 +112,9 @@ class ContactSolver {
   };
   Swept begin(const Bundle& bundle, bool push, bool first);
   float speed(std::size_t body) const;
+  bool gyrates(const Motion& motion) const {
+    return settings_.gyroscopic && vector_of(motion.w).squaredNorm() * h_ * h_ >= LEAST_GYRATION * LEAST_GYRATION;
+  }
   void observe_gaps(const Bundle& bundle);
   void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const;
 
@@ -169,7 +172,6 @@ void ContactSolver::prepare() {
   tolerance_ = world_.tolerance(impact_);
 }
 
-/// Gravity, and the gyroscopic term.
 void ContactSolver::accelerate() {
   const Vec3f gain = h_ * world_.gravity;
   if (world_.frame.turns()) turn_with_bin(world_, bodies_, h_, motions_);
@@ -181,9 +183,9 @@ void ContactSolver::accelerate() {
     Vec3f v = vector_of(motion.v);
     add_exactly(gain, v, b.v_rest);
     motion.v = padded(v, motion.inverse_mass());
-    if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
-      return;  // 1e-4 rad a sub-step: the term is rounding
-    motion.w += padded(gyroscopic_change(b, vector_of(motion.w), h_));
+    if (free_[i] || !gyrates(motion)) return;
+    const Mat3f rotation = b.q.toRotationMatrix();
+    motion.w += padded(rotation * gyroscopic_change(b, rotation, vector_of(motion.w), h_));
   });
   pull(world_, blocks_, block_, h_, motions_);
   jaws_.press(h_, motions_);
@@ -323,11 +325,17 @@ void ContactSolver::move() {
     Motion& motion = motions_[i];
     const float h = slides_[i] ? h_ * mean_share(speeds_[i], speed(i)) : h_;
     motion.moved += h * motion.v;
-    if (free_[i] && motion.inverse_mass() > 0 && !jaws_.has(i))
-      motion.moved -= parabola;  // nothing touches it: exactly the parabola
+    const bool flies = free_[i] && motion.inverse_mass() > 0 && !jaws_.has(i);
+    if (flies) motion.moved -= parabola;  // nothing touches it: exactly the parabola
     motion.turned += h * motion.w;
-    Quatf& q = world_.bodies[bodies_[i]].q;
-    q = integrated(q, vector_of(motion.w), h);
+    Body& b = world_.bodies[bodies_[i]];
+    if (flies && gyrates(motion)) {
+      Vec3f w = vector_of(motion.w);
+      turn_freely(b, w, h);
+      motion.w = padded(w);
+    } else {
+      b.q = integrated(b.q, vector_of(motion.w), h);
+    }
   });
 }
 
