@@ -69,7 +69,7 @@ View view_at(uint s) {
   vec4 x = side.to_field[0], y = side.to_field[1], z = side.to_field[2];
   Carry to_field = Carry(mat3(x.xyz, y.xyz, z.xyz), vec3(x.w, y.w, z.w));
   return View(samples, samples, field, field, to_field, to_field, side.grid.w & SPHERE_SIDE_B, vec3(0.0), vec3(0.0),
-              side.sizes.w, 0.0, true, vec3(0.0));
+              side.sizes.w, 0.0, true);
 }
 
 // 64-bit sum, for what a big world counts beyond 2^32 between two observations.

@@ -14,7 +14,6 @@ struct View {
   vec3 drift, twist;
   float margin, slop;
   bool way_back;
-  vec3 ahead;
 };
 
 // Predicted motion of a body relative to another one until the step ends, in the frame of the other one (m, rad). It is
@@ -55,7 +54,7 @@ View view_of(SpherePair pair, Placement a, Placement b, bool of_a, float margin)
   Drift goes = drift_of(own, at, other, frame);
   return View(samples_of(own), samples_of(other), field_of(bodies[own].ids.x), field_of(bodies[other].ids.x),
               to_field, to_a, of_a ? 0u : SPHERE_SIDE_B, goes.drift, goes.twist, margin,
-              settings.softness[0].z * worlds[world_index].gravity.w, true, vec3(0.0));
+              settings.softness[0].z * worlds[world_index].gravity.w, true);
 }
 
 void emit(View view, vec3 on_a, vec3 normal, float separation, uint feature) {

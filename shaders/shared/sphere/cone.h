@@ -29,7 +29,7 @@ INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {
   for (int sweep = 0; sweep < CONE_SWEEPS; ++sweep) {
     float outside = 0.0f;
     for (uint i = 0u; i < bounds; ++i) {
-      vec3 bound = bound_at(cone, i);
+      IN(vec3) bound = bound_at(cone, i);
       float over = dot(n, bound);
       if (over <= 0.0f) continue;
       outside = max(outside, over);

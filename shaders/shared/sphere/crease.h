@@ -43,10 +43,10 @@ INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
 }
 
 // Returns the walls of `other` at a point. There are none if no crease is near, or if the point is deep in a wall.
-INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+// `list`: the edges near the point.
+INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(Range) list, IN(vec3) point) {
   Walls walls;
   walls.count = 0u;
-  Range list = edges_near(other, field, point);
   if (list.end == list.first || !is_crease(other, listed_edge(other, list.end - 1u))) return walls;
   float reach = CREASE_REACH * field.cell, flush = 0.002f * field.cell, same = 0.05f * field.cell;
   bool near = false;

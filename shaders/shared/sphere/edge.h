@@ -73,8 +73,9 @@ INLINE vec3 common_normal(IN(vec3) u, IN(vec3) v, IN(vec3) away) {
 // Returns whether a point is beside an edge and not past one of its ends (`flush`: tolerance, m). `along`: vector from
 // end a to end b of the edge (m); `off`: vector from the line of the edge to the point (m).
 INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float flush, OUT(vec3) along, OUT(vec3) off) {
-  along = node_at(samples, edge.b) - node_at(samples, edge.a);
-  vec3 from_end = point - node_at(samples, edge.a);
+  IN(vec3) a = node_at(samples, edge.a);
+  along = node_at(samples, edge.b) - a;
+  vec3 from_end = point - a;
   float t = dot(from_end, along) / dot(along, along);
   off = from_end - t * along;
   return t * length_of(edge) >= -flush && (t - 1.0f) * length_of(edge) <= flush;
@@ -273,12 +274,11 @@ INLINE bool ends_at(IN(Samples) samples, IN(Edge) edge, IN(vec3) corner, float s
 }
 
 // Returns whether the nearest point of the surface is a convex corner, for a point that is past the ends of sharp edges
-// but beside none of them. If fewer than three sharp edges end at the corner, it is not convex all around; if a crease
-// ends there as well, the point may be in front of another face.
-INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) corner) {
-  float away = length(point - corner), same = 0.01f * field.cell;
+// but beside none of them, and whose distance from the corner is `away` (m). If fewer than three sharp edges end at the
+// corner, it is not convex all around; if a crease ends there as well, the point may be in front of another face.
+INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(Range) list, IN(vec3) corner, float away) {
+  float same = 0.01f * field.cell;
   if (away >= field.cell || away <= flush_in(field)) return false;
-  Range list = edges_near(other, field, point);
   uint count = 0u;
   for (uint k = list.first; k < list.end; ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
@@ -290,8 +290,8 @@ INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(
 }
 
 // Returns the distance (m) from a sharp edge up to which the grid cannot tell its two faces apart, and the exits are
-// those of the edge: one cell for a right angle. In a wedge, the face is as far from the plane of symmetry there as at a
-// right angle; with one cell for all edges, points on the side of a wedge were held by its tip.
+// those of the edge: one cell for a right angle. In a wedge, the face is as far from the plane of symmetry there as at
+// a right angle; with one cell for all edges, points on the side of a wedge were held by its tip.
 INLINE float exact_within(IN(Field) field, IN(Cone) cone) {
   float sharpness = max(dot(bound_at(cone, 0u), bound_at(cone, 1u)), 0.0f);  // cosine of the angle of the edge
   return min(field.cell / sqrt(max(1.0f - sharpness, 1e-6f)), SPHERE_EDGE_REACH * field.cell);
@@ -299,30 +299,32 @@ INLINE float exact_within(IN(Field) field, IN(Cone) cone) {
 
 // Returns the exits from `other` of a point near sharp edges (exact_within()), computed from the planes of the faces
 // that meet there. Inside all faces, each face is an exit. Outside, there is one exit: to the nearest edge, or along
-// the normal of its face. The list is empty if no edge is near.
-INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+// the normal of its face. The list is empty if no edge is near. `list`: the edges near the point.
+INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(Range) list, IN(vec3) point) {
   float flush = flush_in(field);
   EdgesBeside found;
   found.faces.count = 0u;
   found.nearest = SPHERE_EDGE_REACH * field.cell;
   found.outside = exit_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
-  vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // nearest corner of edges that the point lies beyond the ends of
-  Range list = edges_near(other, field, point);
+  vec3 corner = point;  // nearest corner of edges that the point lies beyond the ends of
+  float to_corner = field.cell;
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
     vec3 along, off;
     if (edge.sharp == 0u) continue;
     if (!is_beside(other, edge, point, flush, along, off)) {
-      vec3 a = node_at(other, edge.a), b = node_at(other, edge.b);
-      vec3 end = dot(point - a, along) < 0.0f ? a : b;
-      if (length(point - end) < length(point - corner)) corner = end;
+      IN(vec3) a = node_at(other, edge.a);
+      vec3 end = dot(point - a, along) < 0.0f ? a : node_at(other, edge.b);
+      float to_end = length(point - end);
+      if (to_end >= to_corner) continue;
+      corner = end;
+      to_corner = to_end;
       continue;
     }
     if (length(off) < exact_within(field, edge.cone)) add_edge(found, edge.cone, along, off);
   }
-  if (found.faces.count == 0u && is_at_corner(other, field, point, corner)) {
-    float distance = length(point - corner);
-    EXIT(found.faces, 0) = exit_of(TO_AN_EDGE, (point - corner) / distance, distance);
+  if (found.faces.count == 0u && is_at_corner(other, field, list, corner, to_corner)) {
+    EXIT(found.faces, 0) = exit_of(TO_AN_EDGE, (point - corner) / to_corner, to_corner);
     found.faces.count = 1u;
     return found.faces;
   }

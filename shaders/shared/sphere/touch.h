@@ -5,8 +5,8 @@
 // with all vectors in the frame of a, and View with these members: samples; other (samples of the field's body); own
 // (field of the samples' body); field; to_field and to_a (Carry: from the samples' frame to the frame of the field, and
 // from there to the frame of the pair's first body, which is the same if side is SPHERE_SIDE_B); drift and twist (m,
-// rad: the predicted motion of the samples' body relative to the field's body until the step ends); ahead (m, initially
-// 0); margin (m, the largest distance of a candidate); slop (m, the overlap that contacts leave); way_back.
+// rad: the predicted motion of the samples' body relative to the field's body until the step ends); margin (m, the
+// largest distance of a candidate); slop (m, the overlap that contacts leave); way_back.
 
 const float NEARLY_ALL = 0.99f;  // smallest cosine between an exit and its rotation into a cone: 8 degrees
 const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: within this angle, two faces count as lying on each other
@@ -42,15 +42,16 @@ INLINE float exit_distance(IN(Field) field, IN(vec3) point, IN(vec3) along, floa
 }
 
 // Emits the candidate of a sample. `place` (m, frame of the field) is its present position, or the predicted position,
-// which differs by view.ahead. In the latter case the contact is with the surface that the sample will face. Its gap is
-// measured from the present position, so that it does not press before the sample has arrived.
+// which differs by `ahead` (m). In the latter case the contact is with the surface that the sample will face. Its gap
+// is measured from the present position, so that it does not press before the sample has arrived.
 //
 // `away` is the unit normal out of the field's part, `number` the feature without bits. If the normal was `turned`, it
 // is that of the sample's surface: it moves with the sample's body, and the point moves with the other body.
-INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, bool turned, float distance_there, uint number) {
-  float nearer = dot(away, view.ahead), distance = distance_there;
-  vec3 point = place - view.ahead;
-  if (dot(view.ahead, view.ahead) > 0.0f) distance = max(distance - nearer, max(nearer, 0.0f));
+INLINE void emit_from(IN(View) view, IN(vec3) ahead, IN(vec3) place, IN(vec3) away, bool turned, float distance_there,
+                      uint number) {
+  float nearer = dot(away, ahead), distance = distance_there;
+  vec3 point = place - ahead;
+  if (dot(ahead, ahead) > 0.0f) distance = max(distance - nearer, max(nearer, 0.0f));
   vec3 surface = point - radius_of(view.samples) * away;
   uint feature = number | (turned ? SPHERE_TURNED | (view.side ^ SPHERE_SIDE_B) : view.side);
   if (view.side == 0u)
@@ -87,7 +88,7 @@ INLINE bool is_stuck(IN(View) view, IN(vec3) point, IN(Exit) exit) {
 // is rotated into the sample's cone; otherwise, parts with flush edges would push each other sideways. The exit of a
 // sample that is stuck deep inside is rotated as well: its nearest face is not significant, and the sample must leave
 // the part in some direction.
-INLINE bool press(IN(View) view, IN(vec3) point, IN(Exit) exit, IN(Cone) cone, uint feature) {
+INLINE bool press(IN(View) view, IN(vec3) ahead, IN(vec3) point, IN(Exit) exit, IN(Cone) cone, uint feature) {
   const float level = 0.999999f;  // cosine of 0.08 degrees, within which no rotation is needed
   bool stuck = is_stuck(view, point, exit);
   vec3 turned;
@@ -95,7 +96,7 @@ INLINE bool press(IN(View) view, IN(vec3) point, IN(Exit) exit, IN(Cone) cone, u
   float left = dot(turned, exit.away);
   bool turns = left < level && (stuck || leans(view, point, exit));
   if (!turns && left < FLUSH && bounds_of(cone) == SPHERE_AXIS) return false;
-  emit_from(view, point, turns ? turned : exit.away, turns, exit.distance, feature + exit.number * SPHERE_PLANE);
+  emit_from(view, ahead, point, turns ? turned : exit.away, turns, exit.distance, feature + exit.number * SPHERE_PLANE);
   return true;
 }
 
@@ -177,7 +178,8 @@ INLINE bool finds_exit_back(IN(View) view, IN(Touch) at, IN(Cone) cone, OUT(Exit
 // were rotated into the cone, an edge held up parts that leant against it sideways.) If no exact exit ends outside, the
 // exit of the field is used, or otherwise the one that finds_exit_back() returns. All of this is one loop, because
 // shader compilers expand every call in place.
-INLINE void offer_exits(IN(View) view, IN(Touch) at, IN(Exits) exits, bool creased, IN(Cone) cone, uint feature) {
+INLINE void offer_exits(IN(View) view, IN(vec3) ahead, IN(Touch) at, IN(Exits) exits, bool creased, IN(Cone) cone,
+                        uint feature) {
   bool out_there = creased;
   for (uint i = 0u; i < exits.count + 2u; ++i) {
     bool exact = i < exits.count;
@@ -194,7 +196,7 @@ INLINE void offer_exits(IN(View) view, IN(Touch) at, IN(Exits) exits, bool creas
     } else if (i > exits.count && !finds_exit_back(view, at, cone, exit)) {
       return;
     }
-    if (press(view, at.point, exit, cone, feature) && !(exact && creased)) return;
+    if (press(view, ahead, at.point, exit, cone, feature) && !(exact && creased)) return;
   }
 }
 
@@ -265,11 +267,10 @@ INLINE bool enters_wedge(IN(View) view, IN(Exits) exits, IN(Cone) cone, IN(vec3)
 // the surface: far from an edge, it is not seen on which part of the surface the sample will press. This place is less
 // than a cell in front, where distances at edges are exact: with those of the grid, two faces that meet would touch at
 // some of their contacts first and turn, by 0.01 % of the speed of the impact and more.
-INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) {
+INLINE void offer(IN(View) view, IN(Touch) touch, IN(Cone) cone, uint feature) {
   const int most_advances = 18;
-  View view = given;
   Touch at = touch;
-  vec3 drift = view.drift + cross(view.twist, touch.point);
+  vec3 drift = view.drift + cross(view.twist, touch.point), ahead = vec3(0.0f, 0.0f, 0.0f);
   float size = length(drift), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f, clear = 0.0f;
   bool far = touch.distance > view.field.cell;
   bool advances = abs(touch.distance) <= error || (touch.distance > 0.0f && touch.distance - error < size);
@@ -277,10 +278,11 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
   Exits exits;
   walls.count = exits.count = 0u;
   for (int i = 0; i < most_advances && radius_of(view.samples) <= 0.0f; ++i) {
-    walls = walls_at_crease(view.other, view.field, at.point);
+    Range list = edges_near(view.other, view.field, at.point);
+    walls = walls_at_crease(view.other, view.field, list, at.point);
     exits.count = 0u;
     if (walls.count == 0u && (advances || bounds_of(cone) != 0u))
-      exits = exits_at_edge(view.other, view.field, at.point);
+      exits = exits_at_edge(view.other, view.field, list, at.point);
     if (!advances) break;
     Exit near = nearest_exit(walls, exits, at.gradient, at.distance);
     bool meets = near.distance <= 0.0f;
@@ -288,7 +290,8 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
       float share = done > 0.0f ? done / size : 0.0f;
       if (meets && i > 0) {  // a little farther, because all faces that may hold the sample are seen from inside only
         share += least / size;
-        exits = exits_at_edge(view.other, view.field, touch.point + share * drift);
+        vec3 within = touch.point + share * drift;
+        exits = exits_at_edge(view.other, view.field, edges_near(view.other, view.field, within), within);
       }
       bool several = exits.count > 1u && (i > 0 || EXIT(exits, 1).distance > -level_of(view));
       Exit onto;
@@ -296,8 +299,8 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
       if (held || (meets && i > 0 && exits.count > 1u && enters_wedge(view, exits, cone, drift, share, onto))) {
         EXIT(exits, 0) = onto;
         exits.count = 1u;
-        view.ahead = share * drift;
-        at.point = touch.point + view.ahead;
+        ahead = share * drift;
+        at.point = touch.point + ahead;
         at.distance = sample_field(view.field, at.point, at.gradient);
         break;
       }
@@ -305,23 +308,23 @@ INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) 
     if (i == 0 && (meets || near.distance + dot(near.away, drift) >= 0.0f)) break;
     if (!meets && done >= size) {
       if (at.distance >= view.margin) return;
-      view.ahead = drift;
+      ahead = drift;
       break;
     }
     advances = !meets && i + 2 < most_advances;
     if (!meets) clear = done;
     float stride = near.distance > view.field.cell ? near.distance - 0.5f * view.field.cell : max(near.distance, least);
     done = advances ? min(done + stride, size) : far ? clear : 0.0f;
-    vec3 ahead = (done > 0.0f ? done / size : 0.0f) * drift;
-    if (!advances) view.ahead = ahead;
-    at.point = touch.point + ahead;
+    vec3 moved = (done > 0.0f ? done / size : 0.0f) * drift;
+    if (!advances) ahead = moved;
+    at.point = touch.point + moved;
     at.distance = sample_field(view.field, at.point, at.gradient);
   }
   bool creased = walls.count > 0u;
   if (creased) exits = exits_in_crease(view, walls, cone);
   // For a sample without a cone, it is not known against which face of an edge it presses.
   if (bounds_of(cone) == 0u && !creased) exits.count = 0u;
-  offer_exits(view, at, exits, creased, cone, feature);
+  offer_exits(view, ahead, at, exits, creased, cone, feature);
 }
 
 // Returns whether a node at the given distance (m) from the other part may have a contact after slide().
@@ -428,9 +431,8 @@ INLINE bool slips_past(IN(View) view, IN(Edge) edge, IN(Edge) other, IN(vec3) p,
 
 // Tests edge e between its ends `first` and `second`, and emits a candidate where it crosses an edge of the other part.
 // Returns whether offer() must be called for `touch`, the point of the edge that is, or will be, the deepest.
-INLINE bool touches_with_edge(IN(View) given, uint e, IN(Touch) first, IN(Touch) second, INOUT(Touch) touch) {
-  IN(Edge) edge = edge_at(given.samples, e);
-  View view = given;
+INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) first, IN(Touch) second, INOUT(Touch) touch) {
+  IN(Edge) edge = edge_at(view.samples, e);
   Touch p = first, q = second;
   bool lowest;
   bool moved = arrive(view, edge, p, q, touch, lowest);
@@ -453,9 +455,8 @@ INLINE bool touches_with_edge(IN(View) given, uint e, IN(Touch) first, IN(Touch)
     if (!crossed) touch = deepest;
     if (!lowest && !crossed) continue;
     if (!moved && touch.distance >= view.margin) return false;
-    view.ahead = touch.point - present;
-    bool presses = crossed && press(view, touch.point, exit_of(OF_A_FACE, touch.gradient, touch.distance), edge.cone,
-                                    e | SPHERE_EDGE);
+    bool presses = crossed && press(view, touch.point - present, touch.point,
+                                    exit_of(OF_A_FACE, touch.gradient, touch.distance), edge.cone, e | SPHERE_EDGE);
     if (!lowest || presses) return false;
     touch = deepest;
     if (moved) touch = touch_at(view, present);

@@ -48,6 +48,10 @@ TEST(EdgeGrid, ListsEveryEdgeWithinReachOfAPoint) {
   EXPECT_LT(listed, 2000 * shape.fine.edges.size() / 4);  // lists, not the whole part
 }
 
+Exits exits_at(const Shape& shape, const Vec3f& point) {
+  return exits_at_edge(shape.fine, shape.field, edges_near(shape.fine, shape.field, point), point);
+}
+
 TEST(Exits, BesideAnEdgeAreStraightToItsFaces) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
@@ -56,7 +60,7 @@ TEST(Exits, BesideAnEdgeAreStraightToItsFaces) {
   for (const float x : {0.1f, 0.3f, 0.5f, 0.6f})
     for (const float z : {0.12f, 0.31f, 0.45f}) {
       const Vec3f point = at_edge(x * cell, z * cell);
-      const Exits exits = exits_at_edge(shape.fine, shape.field, point);
+      const Exits exits = exits_at(shape, point);
       ASSERT_EQ(exits.count, 2);
       const Vec3f near = x < z ? Vec3f::UnitX() : Vec3f::UnitZ(), far = x < z ? Vec3f::UnitZ() : Vec3f::UnitX();
       EXPECT_LT((exits.exit[0].away - near).norm(), 1e-5f);
@@ -74,15 +78,15 @@ TEST(Exits, OutsideThereIsOneToTheFaceOrToTheEdge) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const float cell = shape.field.cell;
-  const Exits above = exits_at_edge(shape.fine, shape.field, at_edge(0.4f * cell, -0.3f * cell));
+  const Exits above = exits_at(shape, at_edge(0.4f * cell, -0.3f * cell));
   ASSERT_EQ(above.count, 1);
   EXPECT_LT((above.exit[0].away - Vec3f::UnitZ()).norm(), 1e-5f);
   EXPECT_NEAR(above.exit[0].distance, 0.3f * cell, 1e-7f);
-  const Exits beyond = exits_at_edge(shape.fine, shape.field, at_edge(-0.3f * cell, -0.4f * cell));
+  const Exits beyond = exits_at(shape, at_edge(-0.3f * cell, -0.4f * cell));
   ASSERT_EQ(beyond.count, 1);
   EXPECT_LT((beyond.exit[0].away - Vec3f(0.6f, 0, 0.8f)).norm(), 1e-5f);
   EXPECT_NEAR(beyond.exit[0].distance, 0.5f * cell, 1e-7f);
-  EXPECT_EQ(exits_at_edge(shape.fine, shape.field, at_edge(2 * cell, 0.1f * cell)).count, 0);
+  EXPECT_EQ(exits_at(shape, at_edge(2 * cell, 0.1f * cell)).count, 0);
 }
 
 // A hundredth of a cell is many times what contacts overlap by at rest: what has passed the edge is off its face.
@@ -90,7 +94,7 @@ TEST(Exits, WhatHasPassedAnEdgeByMicrometresIsOffTheFace) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const float cell = shape.field.cell;
-  const Exits exits = exits_at_edge(shape.fine, shape.field, at_edge(-0.01f * cell, 0.02f * cell));
+  const Exits exits = exits_at(shape, at_edge(-0.01f * cell, 0.02f * cell));
   ASSERT_EQ(exits.count, 1);
   EXPECT_LT((exits.exit[0].away - Vec3f::UnitX()).norm(), 1e-5f);
   EXPECT_NEAR(exits.exit[0].distance, 0.01f * cell, 1e-7f);
@@ -101,7 +105,7 @@ TEST(Exits, InACornerThereAreThree) {
   const Shape shape = box_shape(part, size);
   const float cell = shape.field.cell;
   const Vec3f corner = 0.5f * size.cast<float>();
-  const Exits exits = exits_at_edge(shape.fine, shape.field, corner - cell * Vec3f(0.3f, 0.2f, 0.1f));
+  const Exits exits = exits_at(shape, corner - cell * Vec3f(0.3f, 0.2f, 0.1f));
   ASSERT_EQ(exits.count, 3);
   EXPECT_LT((exits.exit[0].away - Vec3f::UnitZ()).norm(), 1e-5f);
   EXPECT_LT((exits.exit[1].away - Vec3f::UnitY()).norm(), 1e-5f);
@@ -113,7 +117,7 @@ TEST(Exits, InACornerThereAreThreeThoughItIsOutByAHair) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const Vec3f corner = 0.5f * size.cast<float>();
-  const Exits exits = exits_at_edge(shape.fine, shape.field, corner + Vec3f(1e-7f, 1e-7f, -2e-6f));
+  const Exits exits = exits_at(shape, corner + Vec3f(1e-7f, 1e-7f, -2e-6f));
   ASSERT_EQ(exits.count, 3);
   EXPECT_LT((exits.exit[2].away - Vec3f::UnitZ()).norm(), 1e-5f);
   EXPECT_NEAR(exits.exit[2].distance, -2e-6f, 1e-8f);

@@ -37,7 +37,6 @@ struct View {
   float slop = 0;               ///< overlap that contacts leave while parts move (m)
   bool way_back = false;        ///< Settings::way_back
   Candidates& found;            ///< candidates are appended to it
-  Vec3f ahead = Vec3f::Zero();  ///< displacement of a sample to the predicted position at which it is tested (m)
 };
 
 /// Tests all samples of a view, beginning with the bounding spheres of the clusters.
