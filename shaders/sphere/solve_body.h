@@ -17,6 +17,9 @@ vec3 gyroscopic_change(vec3 spin, vec4 orientation, SphereShape shape, float h) 
 // Whether the gyroscopic torque is more than rounding.
 bool gyrates(uint i, float h) { return dot(spin_of(i).xyz, spin_of(i).xyz) * h * h >= LEAST_GYRATION * LEAST_GYRATION; }
 
+// Whether the poses of the parts were given: a poured heap is random, and keeps its bits.
+bool turns_exactly() { return world.tolerance.z > 0.0; }
+
 vec4 turned_by(vec3 turn, vec4 orientation) { return normalize(quat_multiply(quat_of_turn(turn), orientation)); }
 
 // Turns body i, which nothing touches, for h seconds. Half of the change of its spin comes before the rotation, so that
@@ -62,7 +65,7 @@ void integrate_velocity(uint i, float h) {
   add_exactly(h * world.gravity.xyz, v, rest);
   velocity_of(i).xyz = v;
   states[body].velocity_rest.xyz = rest;
-  if (spin_of(i).w == 0.0 || !gyrates(i, h)) return;  // integrate_position() turns what nothing touches
+  if (turns_exactly() && spin_of(i).w == 0.0 || !gyrates(i, h)) return;  // integrate_position() turns it
   vec4 own = spin_of(i), orientation = states[body].orientation;
   vec3 change = gyroscopic_change(own.xyz, orientation, shapes[bodies[body].ids.x], h);
   spin_of(i) = vec4(own.xyz + rotate(orientation, change), own.w);
@@ -79,7 +82,7 @@ void integrate_position(uint i, float h) {
   if (flies) moved_of(i).xyz -= 0.5 * h * h * world.gravity.xyz;
   turned_of(i).xyz += h * spin_of(i).xyz;
   uint body = world.bodies.x + i;
-  if (flies && gyrates(i, h))
+  if (turns_exactly() && flies && gyrates(i, h))
     turn_freely(i, h);
   else
     states[body].orientation = turned_by(h * spin_of(i).xyz, states[body].orientation);

@@ -183,7 +183,7 @@ void ContactSolver::accelerate() {
     Vec3f v = vector_of(motion.v);
     add_exactly(gain, v, b.v_rest);
     motion.v = padded(v, motion.inverse_mass());
-    if (free_[i] || !gyrates(motion)) return;
+    if ((world_.exact_impacts && free_[i]) || !gyrates(motion)) return;
     const Mat3f rotation = b.q.toRotationMatrix();
     motion.w += padded(rotation * gyroscopic_change(b, rotation, vector_of(motion.w), h_));
   });
@@ -329,7 +329,7 @@ void ContactSolver::move() {
     if (flies) motion.moved -= parabola;  // nothing touches it: exactly the parabola
     motion.turned += h * motion.w;
     Body& b = world_.bodies[bodies_[i]];
-    if (flies && gyrates(motion)) {
+    if (world_.exact_impacts && flies && gyrates(motion)) {
       Vec3f w = vector_of(motion.w);
       turn_freely(b, w, h);
       motion.w = padded(w);
