@@ -17,7 +17,8 @@ vec3 gyroscopic_change(vec3 spin, vec4 orientation, SphereShape shape, float h) 
 // Whether the gyroscopic torque is more than rounding.
 bool gyrates(uint i, float h) { return dot(spin_of(i).xyz, spin_of(i).xyz) * h * h >= LEAST_GYRATION * LEAST_GYRATION; }
 
-// Whether the poses of the parts were given: a poured heap is random, and keeps its bits.
+// Whether bodies that nothing touches turn by turn_freely(), and not with the spin after the sub-step: in worlds that
+// solve impacts exactly, because the poses of the parts were given.
 bool turns_exactly() { return world.tolerance.z > 0.0; }
 
 vec4 turned_by(vec3 turn, vec4 orientation) { return normalize(quat_multiply(quat_of_turn(turn), orientation)); }

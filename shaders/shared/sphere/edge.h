@@ -290,8 +290,9 @@ INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(Range) list, IN(
 }
 
 // Returns the distance (m) from a sharp edge up to which the grid cannot tell its two faces apart, and the exits are
-// those of the edge: one cell for a right angle. In a wedge, the face is as far from the plane of symmetry there as at
-// a right angle; with one cell for all edges, points on the side of a wedge were held by its tip.
+// those of the edge: one cell for a right angle, and more for a wedge, whose faces are nearer to its plane of symmetry,
+// where the field has a crease that the grid smooths. With one cell for all edges, points on the side of a wedge were
+// held by its tip.
 INLINE float exact_within(IN(Field) field, IN(Cone) cone) {
   float sharpness = max(dot(bound_at(cone, 0u), bound_at(cone, 1u)), 0.0f);  // cosine of the angle of the edge
   return min(field.cell / sqrt(max(1.0f - sharpness, 1e-6f)), SPHERE_EDGE_REACH * field.cell);
@@ -316,9 +317,10 @@ INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(Range) list, I
       IN(vec3) a = node_at(other, edge.a);
       vec3 end = dot(point - a, along) < 0.0f ? a : node_at(other, edge.b);
       float to_end = length(point - end);
-      if (to_end >= to_corner) continue;
-      corner = end;
-      to_corner = to_end;
+      if (to_end < to_corner) {
+        corner = end;
+        to_corner = to_end;
+      }
       continue;
     }
     if (length(off) < exact_within(field, edge.cone)) add_edge(found, edge.cone, along, off);

@@ -55,7 +55,7 @@ class ContactSolver {
 
   void prepare();  ///< rows from contacts, with the forces of the last step
   std::uint64_t falling() const { return static_cast<std::uint64_t>(std::count(free_.begin(), free_.end(), 1)); }
-  void accelerate();  ///< gravity, and the gyroscopic term of what is touched
+  void accelerate();  ///< gravity, and the gyroscopic term of what does not turn freely
   void warm_start();  ///< impulses of the last sub-step again
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
@@ -115,6 +115,10 @@ class ContactSolver {
   bool gyrates(const Motion& motion) const {
     return settings_.gyroscopic && vector_of(motion.w).squaredNorm() * h_ * h_ >= LEAST_GYRATION * LEAST_GYRATION;
   }
+  /// Whether nothing touches a body of the block: it falls along the exact parabola.
+  bool flies(std::size_t body) const { return free_[body] && motions_[body].inverse_mass() > 0 && !jaws_.has(body); }
+  /// Whether a body is turned by turn_freely(), and not with the spin after the sub-step.
+  bool turns_freely(std::size_t body) const { return world_.exact_impacts && flies(body) && gyrates(motions_[body]); }
   void observe_gaps(const Bundle& bundle);
   void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const;
 
@@ -183,7 +187,7 @@ void ContactSolver::accelerate() {
     Vec3f v = vector_of(motion.v);
     add_exactly(gain, v, b.v_rest);
     motion.v = padded(v, motion.inverse_mass());
-    if ((world_.exact_impacts && free_[i]) || !gyrates(motion)) return;
+    if (turns_freely(i) || !gyrates(motion)) return;
     const Mat3f rotation = b.q.toRotationMatrix();
     motion.w += padded(rotation * gyroscopic_change(b, rotation, vector_of(motion.w), h_));
   });
@@ -325,11 +329,10 @@ void ContactSolver::move() {
     Motion& motion = motions_[i];
     const float h = slides_[i] ? h_ * mean_share(speeds_[i], speed(i)) : h_;
     motion.moved += h * motion.v;
-    const bool flies = free_[i] && motion.inverse_mass() > 0 && !jaws_.has(i);
-    if (flies) motion.moved -= parabola;  // nothing touches it: exactly the parabola
+    if (flies(i)) motion.moved -= parabola;
     motion.turned += h * motion.w;
     Body& b = world_.bodies[bodies_[i]];
-    if (world_.exact_impacts && flies && gyrates(motion)) {
+    if (turns_freely(i)) {
       Vec3f w = vector_of(motion.w);
       turn_freely(b, w, h);
       motion.w = padded(w);
