@@ -119,6 +119,72 @@ inline double asymmetry_of_impact(Lab lab, double edge, double ratio, double gap
   return most / speed;
 }
 
+/// A channel along y, `size` wide, 0.4 of it long and 0.7 high, open above. Its floor and its two walls are 0.16 thick.
+inline PartModelPtr channel(double size) {
+  const double xs[] = {-0.5, 0.5, 0.5, 0.34, 0.34, -0.34, -0.34, -0.5}, zs[] = {0, 0, 0.7, 0.7, 0.16, 0.16, 0.7, 0.7};
+  Mesh mesh;
+  for (const double y : {-0.2, 0.2})
+    for (int i = 0; i < 8; ++i) mesh.vertices.emplace_back(size * xs[i], size * y, size * zs[i]);
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const std::uint32_t j = (i + 1) % 8;
+    mesh.triangles.insert(mesh.triangles.end(), {{i, j + 8, j}, {i, i + 8, j + 8}});
+  }
+  for (const Triangle& t : {Triangle{0, 1, 4}, Triangle{0, 4, 5}, Triangle{1, 2, 4}, Triangle{2, 3, 4},
+                            Triangle{0, 5, 7}, Triangle{5, 6, 7}})
+    mesh.triangles.insert(mesh.triangles.end(), {t, {t[0] + 8, t[2] + 8, t[1] + 8}});
+  return PartModel::from_mesh(mesh, "channel");
+}
+
+/// A bar flies into a fixed channel, so that its lower front edge arrives near the place where a wall, the floor and an
+/// end of the channel meet: how deep the edges of wall and floor there get into the bar / d. Negative if the bar of
+/// this seed overlaps the channel already at the start. `channel`: of this size.
+inline double overlap_beside_a_saddle(Lab lab, const PartModelPtr& channel, double size, std::uint64_t seed) {
+  Random random(seed, 0, Stream::probe);
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  BodyDef fixed = material(0.0);
+  fixed.fixed = true;
+  lab.place(channel, channel->mass().center, Quat::Identity(), fixed);
+  const Vec3 bar = size * Vec3(1.2, 0.4, 0.3), saddle = size * Vec3(-0.34, 0.2, 0.16);
+  const double yaw = random.uniform(0.1, 1.4), pitch = random.uniform(0.0, 1.0), roll = random.uniform(-0.7, 0.7);
+  Mat3 axes;  // along the bar, to its front, up
+  axes.col(0) = (Vec3(std::sin(yaw), -std::cos(yaw), 0) + std::tan(pitch) * Vec3::UnitZ()).normalized();
+  axes.col(1) = Eigen::AngleAxisd(roll, Vec3(axes.col(0))) * Vec3(-std::cos(yaw), -std::sin(yaw), 0);
+  axes.col(2) = Vec3(axes.col(0)).cross(Vec3(axes.col(1)));
+  const double up = axes(2, 2) < 0.0 ? -1.0 : 1.0;
+  const double speed = 7.0 * std::sqrt(size), seconds = random.uniform(0.2, 0.3) * size / speed;
+  const Vec3 velocity = speed * Vec3(-1, random.uniform(-0.3, 0.3), -random.uniform(0.0, 0.6));
+  const Vec3 to_edge(random.uniform(-0.3, 0.3) * size, 0.5 * bar.y(), -0.5 * up * bar.z());
+  const Vec3 start = saddle - axes * to_edge - seconds * velocity + random.uniform(-0.03, 0.03) * size * Vec3::UnitZ();
+  const auto is_inside = [&](const Vec3& point) {
+    const Vec3 p = point / size;
+    const bool within = std::abs(p.y()) < 0.2 && p.z() > 0.0 && p.z() < 0.7 && std::abs(p.x()) < 0.5;
+    return within && (p.z() < 0.16 || std::abs(p.x()) > 0.34);
+  };
+  for (int i = 0; i <= 40; ++i)
+    for (const double y : {-0.5, 0.0, 0.5})
+      for (const double z : {-0.5, 0.0, 0.5})
+        if (is_inside(start + axes * bar.cwiseProduct(Vec3(i / 40.0 - 0.5, y, z)))) return -1.0;
+  const auto depth_at = [&](const Pose& pose) {
+    double most = 0.0;
+    for (int i = 0; i <= 200; ++i)
+      for (const Vec3& edge : {Vec3(0, 0, 0.54), Vec3(0.68, 0, 0)}) {
+        const Vec3 p = pose.inverse() * (saddle + i / 200.0 * size * edge);
+        most = std::max(most, (0.5 * bar - p.cwiseAbs()).minCoeff() / bar.norm());
+      }
+    return most;
+  };
+  if (depth_at({start, Quat(axes)}) > 0.0) return -1.0;
+  const auto body = lab.place(box(bar), start, Quat(axes), material(0.0));
+  lab.start(body).velocity.linear = velocity;
+  double deepest = 0.0;
+  while (lab.time() < 2.0 * seconds) {
+    lab.simulate(lab.solver().step_size());
+    deepest = std::max(deepest, depth_at(lab.state(body).pose));
+  }
+  return deepest;
+}
+
 struct Stood {
   double deepest = 0.0;  ///< overlap at any time / d
   double moved = 0.0;    ///< farthest that the light one went sideways / edge

@@ -3,9 +3,9 @@
 // between the faces, and its depth belongs to neither face. Where an edge of one part meets an edge or a corner of the
 // other, depth and normal are therefore computed from the edges themselves.
 //
-// The includer defines before: field.h, cone.h, Samples, node_at(samples, i), Edge (a, b: nodes; cone; length in m;
-// sharp: two faces meet there, into which the first two bounds of the cone point), edge_at(samples, e), and
-// edges_near(samples, field, point): a Range of listed_edge(samples, k) in ascending order. Edges from
+// The includer defines before: field.h, cone.h, Samples, node_at(samples, i), cone_at(samples, i), Edge (a, b: nodes;
+// cone; length in m; sharp: two faces meet there, into which the first two bounds of the cone point), edge_at(samples,
+// e), and edges_near(samples, field, point): a Range of listed_edge(samples, k) in ascending order. Edges from
 // first_crease(samples) on fold inwards: crease.h.
 
 INLINE bool is_crease(IN(Samples) samples, uint e) {
@@ -114,21 +114,49 @@ INLINE bool is_outside(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   return false;
 }
 
-// Finds the nearest edge of the other part that the edge from p to q crosses and on which a contact may press along the
-// common normal of both edges. `touch` contains the point and the gradient of the field, and gets point, normal and
-// distance of the crossing; `crossed` gets the number of the edge. Returns false, and leaves both unchanged, if there
-// is no such edge.
-INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(Touch) touch,
-                        INOUT(uint) crossed) {
+// Returns whether an edge ends at a saddle, a vertex where a concave edge ends as well: at end a, or otherwise at end
+// b. The normal cone of a convex corner is bounded by its edges, that of a saddle by their faces (sample_draft.cpp).
+INLINE bool ends_at_saddle(IN(Samples) samples, IN(Edge) edge, bool at_a) {
+  const float parallel = 0.999f;  // cosine of 2.6 degrees
+  vec3 along = node_at(samples, edge.b) - node_at(samples, edge.a);
+  if (!at_a) along = -along;
+  Cone cone = cone_at(samples, at_a ? edge.a : edge.b);
+  uint bounds = bounds_of(cone);
+  if (bounds == SPHERE_AXIS || bounds == 0u) return false;
+  for (uint i = 0u; i < bounds; ++i)
+    if (dot(bound_at(cone, i), along) > parallel * length_of(edge)) return false;
+  return true;
+}
+
+// Returns whether a crossing at the share `s` of the line of an edge counts as one with the edge: between its ends, or
+// nearer than `beyond` (m) to an end at a saddle. There, another edge may lie on one face of the concave edge and meet
+// the edge of the other face: it crosses that edge at its very end, or just beyond it, since contacts are found before
+// the first face has stopped the other edge.
+INLINE bool meets_edge(IN(Samples) samples, IN(Edge) edge, float s, float beyond) {
+  float past = max(-s, s - 1.0f);
+  if (past <= 0.0f) return true;
+  return edge.sharp != 0u && past * length_of(edge) < beyond && ends_at_saddle(samples, edge, s < 0.0f);
+}
+
+const uint NO_EDGE = 0xffffffffu;
+
+// Finds the nearest edge of the other part that an own edge crosses, and on which a contact may press along the common
+// normal of both edges. `p`, `q`: ends a and b of the own edge, frame of the field. `touch` contains the point and the
+// gradient of the field, and gets point, normal and distance of the crossing. Returns the number of the other edge.
+// Returns NO_EDGE, and leaves `touch` unchanged, if there is no such edge.
+INLINE uint cross_edges(IN(Samples) own, IN(Edge) own_edge, IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q,
+                        INOUT(Touch) touch) {
   vec3 u = q - p, from = touch.point, out_of = touch.gradient;
-  float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(touch.distance), SPHERE_EDGE_REACH * field.cell);
-  bool found = false;
+  float uu = dot(u, u), beyond = 2.0f * field.cell;
+  float nearest = min(beyond + abs(touch.distance), SPHERE_EDGE_REACH * field.cell);
+  uint crossed = NO_EDGE;
   Range list = edges_near(other, field, from);
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
     vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r;
     float s, t;
-    if (!nearest_points(u, uu, v, p - r, s, t) || s < 0.0f || s > 1.0f || t < 0.0f || t > 1.0f) continue;
+    if (!nearest_points(u, uu, v, p - r, s, t)) continue;
+    if (!meets_edge(own, own_edge, s, beyond) || !meets_edge(other, edge, t, beyond)) continue;
     vec3 on_u = p + s * u, between = on_u - (r + t * v);
     float apart = length(between);
     if (apart >= nearest) continue;
@@ -141,9 +169,8 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
     touch.gradient = normal;
     touch.distance = dot(between, normal);
     crossed = listed_edge(other, k);
-    found = true;
   }
-  return found;
+  return crossed;
 }
 
 // Returns whether a line through a point along a unit direction crosses a sharp edge of the other part within one cell,

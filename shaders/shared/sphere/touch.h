@@ -391,8 +391,8 @@ INLINE bool arrive(IN(View) view, IN(Edge) edge, INOUT(Touch) p, INOUT(Touch) q,
 // Returns whether the crossing of two edges is left to a corner where one of them ends: the edges approach each other
 // or overlap, they meet no farther from the corner than a level sample lies from a face, and the corner lies on a face
 // of the other edge and moves along it. For example, the vertical edges of a box that slides over level tiles cross the
-// edges of the tiles. The edge of the sample is between p and q at present; `normal` and `gap` (m) are those of the
-// crossing.
+// edges of the tiles. An edge that ends at a saddle is in the way of the other one, and is not left to its end. The
+// edge of the sample is between p and q at present; `normal` and `gap` (m) are those of the crossing.
 INLINE bool slips_past(IN(View) view, IN(Edge) edge, IN(Edge) other, IN(vec3) p, IN(vec3) q, IN(vec3) normal,
                        float gap) {
   vec3 drift = view.drift + cross(view.twist, p);
@@ -405,6 +405,7 @@ INLINE bool slips_past(IN(View) view, IN(Edge) edge, IN(Edge) other, IN(vec3) p,
     bool own = i < 4u, at_a = (i & 2u) == 0u, first = (i & 1u) == 0u;  // whose corner, at which end, on which face
     float along = own ? s : t, from_end = at_a ? along : along - 1.0f;
     if (abs(from_end) * (own ? length_of(edge) : length_of(other)) >= level) continue;
+    if (own ? ends_at_saddle(view.samples, edge, at_a) : ends_at_saddle(view.other, other, at_a)) continue;
     Faces faces = own ? faces_at(other.cone, v) : faces_at(edge.cone, turned_back(view.to_field.rotation, u));
     vec3 away = faces.normal_1, corner = p, face_at = r;
     if (!first) away = faces.normal_2;
@@ -443,11 +444,13 @@ INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) first, IN(Touch) 
       if (!may_cross(view, edge, touch.distance)) continue;
     }
     Touch deepest = touch;
-    uint other = 0u;
-    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch, other);
+    uint other = cross_edges(view.samples, edge, view.other, view.field, p.point, q.point, touch);
+    bool crossed = other != NO_EDGE;
+    if (!crossed) other = 0u;
     vec3 along = q.point - p.point;
     float t = dot(touch.point - p.point, along) / dot(along, along);
-    crossed = crossed && (!moved || (t > END && t < 1.0f - END));
+    bool inside = t > END && t < 1.0f - END;
+    crossed = crossed && (!moved || inside || ends_at_saddle(view.samples, edge, t < 0.5f));
     vec3 present = touch.point;
     if (moved) present = first.point + t * (second.point - first.point);
     crossed = crossed && !slips_past(view, edge, edge_at(view.other, other), first.point, second.point, touch.gradient,

@@ -130,8 +130,8 @@ TEST(CrossEdges, NormalsLieBetweenTheFacesOfTheOtherEdge) {
   const auto cross = [&](float rise, Vec3f& normal) {
     const Vec3f middle = at_edge(0, 0.05f * shape.field.cell), along = 0.002f * Vec3f(1, 0, rise);
     Touch touch{middle, Vec3f::UnitZ(), -0.05f * shape.field.cell};
-    uint crossed = 0;
-    const bool crosses = cross_edges(shape.fine, shape.field, middle - along, middle + along, touch, crossed);
+    const bool crosses =
+        cross_edges(shape.fine, Edge{}, shape.fine, shape.field, middle - along, middle + along, touch) != NO_EDGE;
     normal = touch.gradient;
     return crosses;
   };

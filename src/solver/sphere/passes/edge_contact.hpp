@@ -10,6 +10,9 @@ namespace bin_scenes::sphere {
 inline const Vec3f& node_at(const Samples& samples, uint i) {
   return i < samples.nodes.size() ? samples.nodes[i] : samples.crease_ends[i - samples.nodes.size()];
 }
+inline const Cone& cone_at(const Samples& samples, uint i) {
+  return samples.cones[i];
+}
 inline uint first_crease(const Samples& samples) {
   return samples.first_edge.back();
 }

@@ -7,9 +7,6 @@
 
 namespace bin_scenes::sphere {
 
-inline const Cone& cone_at(const Samples& samples, uint i) {
-  return samples.cones[i];
-}
 inline float radius_of(const Samples& samples) {
   return samples.radius;
 }
