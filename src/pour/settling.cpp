@@ -12,12 +12,15 @@ namespace {
 using Finish = Pour::Finish;
 
 constexpr double calm_share = 0.4;  ///< part of the rest window after which parts that have not moved are calm
-constexpr double jolt = 0.02;      ///< s at the start of a check in which its forces are found and parts shift a little
-constexpr double creep = 1.0;      ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
-constexpr double patience = 2.0;   ///< s: time-out of stages whose stiff contacts damp rocking poorly
-constexpr int most_checks = 12;    ///< of the whole heap; those that still move in the last one are rechecked
-constexpr int most_rechecks = 8;   ///< who still moves in the last one is unstable
-constexpr double last_call = 6.0;  ///< s after the pour: few parts that still move then are not waited for any longer
+constexpr double jolt = 0.02;     ///< s at the start of a check in which its forces are found and parts shift a little
+constexpr double creep = 1.0;     ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
+constexpr double patience = 2.0;  ///< s: time-out of stages whose stiff contacts damp rocking poorly
+constexpr int most_checks = 12;   ///< of the whole heap; those that still move in the last one are rechecked
+constexpr int most_rechecks = 8;  ///< who still moves in the last one is unstable
+/// s after the pour: from then on, checks are not repeated for the whole heap, since each of them makes other parts
+/// move.
+constexpr double last_call = 4.0;
+constexpr double closing = 6.0;  ///< s after the pour: few parts that rock on are not waited for any longer
 // Parts that may move in a check without it being repeated for the whole heap, at most n / 50: 3 of 150.
 constexpr double tolerated_share = 0.02;
 
@@ -42,7 +45,7 @@ struct Settling::Seen {
   }
   /// Parts that moved in this check have not been verified where they lie now.
   std::size_t unverified() const { return heap.still_for_less_than(in_stage - jolt); }
-  bool moved() const { return calm() && too_many(unverified()) && checks < most_checks; }
+  bool moved() const { return calm() && too_many(unverified()) && checks < most_checks && since_pour <= last_call; }
   /// Parts have had time to show that they move. Rest alone does not say so: its window reaches back into the stage
   /// before, so that a verification would end at its first observation.
   bool shown() const { return rest() && (in_stage >= heap.rest_window() || heap.all_asleep()); }
@@ -53,8 +56,8 @@ struct Settling::Seen {
     const std::size_t moving = heap.still_for_less_than(heap.rest_window());
     return moving <= 1 || !too_many(moving);
   }
-  /// The last parts rock or turn on and on.
-  bool late() const { return since_pour > last_call && !calm() && nearly(); }
+  /// The last parts rock or turn on and on. One that has just begun to slip in a check is waited for.
+  bool late() const { return since_pour > closing && in_stage > patience && !calm() && nearly(); }
   bool stood() const { return calm() && heap.all_rest(); }
   /// A part that tips or falls is waited for. On soft contacts the whole heap would sag again, and others fall as it is
   /// pressed: of hundreds there is always one.

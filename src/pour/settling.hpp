@@ -7,9 +7,9 @@
 /// Finish::settled leaves out press, probe and recheck, and Finish::pressed leaves out probe and recheck. A heap that
 /// forgets its forces before it counts as finished has shown that it does not rest on remembered friction alone.
 ///
-/// A check is a probe, verify or recheck. If many parts move in one, it is repeated for the whole heap. If a few do,
-/// these are checked again alone, until they rest or the number of checks is used up: then they are reported as
-/// unstable.
+/// A check is a probe, verify or recheck. If many parts move in one, it is repeated for the whole heap, for some
+/// seconds after the pour. If a few do, or if it is late, these are checked again alone, until they rest or the number
+/// of checks is used up: then they are reported as unstable.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
