@@ -51,10 +51,10 @@ struct Settling::Seen {
   bool shown() const { return rest() && (in_stage >= heap.rest_window() || heap.all_asleep()); }
   bool verified() const { return shown() && unverified() == 0; }
   bool verifiable() const { return shown() && rechecks < most_rechecks; }
-  /// All but a few parts rest.
+  /// No more than a few parts have moved for some time: these rock, and do not make others move in turn.
   bool nearly() const {
-    const std::size_t moving = heap.still_for_less_than(heap.rest_window());
-    return moving <= 1 || !too_many(moving);
+    const std::size_t moved = heap.still_for_less_than(patience);
+    return moved <= 1 || !too_many(moved);
   }
   /// The last parts rock or turn on and on. One that has just begun to slip in a check is waited for.
   bool late() const { return since_pour > closing && in_stage > patience && !calm() && nearly(); }
@@ -149,7 +149,7 @@ Settling::Seen Settling::seen(const HeapView& heap, double time) const {
 
 std::array<double, 4> Settling::ages(const HeapView& heap, double time) const {
   const Seen at = seen(heap, time);
-  return {at.calm_s, 0.5 * at.calm_s, at.in_stage - jolt, heap.rest_window()};
+  return {at.calm_s, 0.5 * at.calm_s, at.in_stage - jolt, patience};
 }
 
 const Settling::Transition* Settling::next(const HeapView& heap, double time) const {

@@ -216,6 +216,39 @@ TEST(Stages, ALateHeapIsNotProbedAgainAsAWhole) {
   EXPECT_LT(probes, 5);
 }
 
+/// Its parts have been still for some time (s), or move.
+class HeapOfTimes : public HeapView {
+ public:
+  std::vector<double> still;
+
+  bool all_in() const override { return true; }
+  bool all_slow() const override { return true; }
+  bool all_rest() const override { return still_for_less_than(rest_window()) == 0; }
+  bool all_asleep() const override { return false; }
+  std::size_t count() const override { return still.size(); }
+  std::size_t still_for_less_than(double seconds) const override {
+    return static_cast<std::size_t>(
+        std::count_if(still.begin(), still.end(), [&](double time) { return time < seconds; }));
+  }
+  double rest_window() const override { return 0.25; }
+};
+
+// In a heap of 800 gears, 80 slipped one after the other, until all rested 0.2 s after the heap was ended.
+TEST(Stages, FewThatMoveAreNotWaitedForButOneAfterTheOtherIs) {
+  HeapOfTimes heap;
+  heap.still.assign(800, 100.0);
+  Settling settling(Pour::Finish::probed);
+  settling.start(Stage::pour);
+  for (const double time : {1.0, 1.5, 2.0, 3.5}) settling.advance(heap, time);
+  ASSERT_EQ(settling.stage(), Stage::verify);
+  std::fill_n(heap.still.begin(), 80, 1.0);
+  std::fill_n(heap.still.begin(), 2, 0.0);
+  EXPECT_FALSE(settling.advance(heap, 7.5));
+  std::fill_n(heap.still.begin() + 2, 78, 2.5);
+  EXPECT_TRUE(settling.advance(heap, 9.0));
+  EXPECT_TRUE(settling.done());
+}
+
 TEST(Stages, WhatRocksOnInAProbeIsSettledAgain) {
   HoveringSolver::Habits habits;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
