@@ -242,19 +242,28 @@ bool within_walls(SphereWorld world, vec3 p, float margin) {
   return false;
 }
 
+void offer_rim(SphereWorld world, Touch touch, vec3 place, float margin, uint feature) {
+  if (touch.distance < margin && !within_walls(world, place, margin))
+    emit(touch.point - touch.distance * touch.gradient, touch.gradient, touch.distance, feature);
+}
+
 // All invocations, each some places along the rim of plane k.
 void test_rim(SphereWorld world, uint k, uint shape, Samples samples, Field field, Placement a, float margin) {
   Plane plane = planes[world.pairs.z + k];
   Rim rim;
   float radius = shapes[shape].box_center.w;
   if (!find_rim(plane, world.ground.z, a.position, radius, margin, face_spacing_of(samples), rim)) return;
+  vec3 start = a.position + rim.start;
   for (int i = rim.first + int(gl_LocalInvocationIndex); i <= rim.last; i += SPHERE_PAIR_GROUP) {
     float before = distance_at(rim, field, a.rotation, i - 1), here = distance_at(rim, field, a.rotation, i);
     float after = distance_at(rim, field, a.rotation, i + 1), t;
     Touch touch;
-    if (may_touch_rim(rim, before, here, after, margin) && touch_rim(rim, plane, field, a.rotation, i, t, touch) &&
-        touch.distance < margin && !within_walls(world, a.position + rim.start + t * rim.along, margin))
-      emit(touch.point - touch.distance * touch.gradient, touch.gradient, touch.distance, rim_feature(i, k));
+    if (!may_touch_rim(rim, before, here, after, margin) || !touch_rim(rim, plane, field, a.rotation, i, t, touch) ||
+        touch.distance >= margin)
+      continue;
+    offer_rim(world, touch, start + t * rim.along, margin, rim_feature(i, false, k));
+    if (touch_far_end(rim, field, a.rotation, t, touch))
+      offer_rim(world, touch, start + t * rim.along, margin, rim_feature(i, true, k));
   }
 }
 

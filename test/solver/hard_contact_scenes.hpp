@@ -185,6 +185,37 @@ inline double overlap_beside_a_saddle(Lab lab, const PartModelPtr& channel, doub
   return deepest;
 }
 
+/// Lengths without a unit are in sizes, angles in rad.
+struct Leaning {
+  double size = 0.1;  ///< m, height of the bin and half its width
+  double width = 0.04, roll = 0.0, yaw = 0.0;
+  double lean = 1.0;  ///< angle of the bar to the floor
+};
+/// A flat bar with its lower end on the floor of a bin and its face on the rim, over which it falls by a few hundredths
+/// of its width: time after which it rests for ten units / unit, sqrt(size / g); 100 at the most.
+inline double time_to_rest_on_the_rim(Lab lab, const Leaning& leaning) {
+  const double size = leaning.size, width = leaning.width * size, unit = std::sqrt(size / g);
+  lab.def().bin.kind = Bin::Kind::box;
+  lab.def().bin.inner_size = size * Vec3(2.0, 2.0, 1.0);
+  lab.def().bin.friction = 0.8;
+  lab.def().wall_height = size;
+  const Vec3 bar = Vec3(1.6 * size, width, 0.04 * size), rim(size, 0, size);
+  const Vec3 foot = rim - size * Vec3(1.0 / std::tan(leaning.lean), 0, 1.0);
+  const Quat turn = Quat(Eigen::AngleAxisd(leaning.yaw, Vec3::UnitZ())) *
+                    Quat(Eigen::AngleAxisd(-leaning.lean, Vec3::UnitY())) *
+                    Quat(Eigen::AngleAxisd(leaning.roll, Vec3::UnitX()));
+  const double above = 0.5 * bar.z() + 0.5 * width * leaning.roll;
+  const Vec3 center = foot + turn * (0.5 * Vec3(bar.x(), 0, bar.z())) + Vec3(0, 0, above);
+  const auto body = lab.place(box(bar), center, turn, material(0.8, 0.0, 0.1));
+  lab.begin(phases::verify);
+  double moving = 0.0;
+  while (lab.time() < std::min(100.0, moving / unit + 10.0) * unit) {
+    lab.simulate(lab.solver().step_size());
+    if (lab.state(body).velocity.angular.norm() > 2e-3 / unit) moving = lab.time();
+  }
+  return moving / unit;
+}
+
 struct Stood {
   double deepest = 0.0;  ///< overlap at any time / d
   double moved = 0.0;    ///< farthest that the light one went sideways / edge

@@ -1,6 +1,7 @@
 // Contacts between the rim of a wall of the bin and the field of a part that lies across it. The line of the rim may
 // pass between the nodes of the part. One candidate is found at each place along the line where the distance to the
-// part has a minimum. The includer includes slide.h before.
+// part has a minimum, and another one at the other end of the face there, if the line passes along a face: with one
+// contact at a time, the part would rock from one end to the other. The includer includes slide.h before.
 
 const int RIM_ROUNDS = 8;  // rounds of the search; each removes a third of the interval that contains the nearest point
 
@@ -65,7 +66,55 @@ INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) ro
   return dot(exit_direction, vec3(0.0f, 0.0f, 1.0f)) >= least_out && dot(exit_direction, normal_of(plane)) >= least_out;
 }
 
-// Returns the feature (SphereContact.feature) of a contact around point i of the rim of plane k.
-INLINE uint rim_feature(int i, uint k) {
-  return SPHERE_SIDE_B | ((uint(i + 0x400000) & 0x7fffffu) + k * SPHERE_PLANE);
+// The distance (m) from the rim to a face of a part as a function of the way along the rim: where the way is t (m), it
+// is `distance`, and it increases by `slope` times the way from there.
+struct FaceAlong {
+  float t, distance, slope;
+};
+
+// Returns whether the face goes on at the given way (m, may be negative) from its t: at its end, the distance
+// increases.
+INLINE bool goes_on(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, IN(FaceAlong) face, float way) {
+  float there = sample_field(field, on_rim(rim, rotation, face.t + way));
+  return there < face.distance + face.slope * abs(way) + 0.02f * field.cell;
+}
+
+// Moves `touch`, the point of the part that is nearest to the rim at coordinate t (m), along the rim to the other end
+// of the face there. Returns false if the rim does not pass along a face, or only for a few cells of the field.
+INLINE bool touch_far_end(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, INOUT(float) t, INOUT(Touch) touch) {
+  const float steepest = 0.1f;  // slope of a face that may lie on the rim soon: 6 degrees
+  float few = 4.0f * field.cell, reach = rim.step_size * float(rim.last - rim.first);
+  for (int side = -1; side <= 1 && field.ball <= 0.0f; side += 2) {
+    float within = float(side) * few, beyond = 2.0f * within;
+    FaceAlong face;
+    face.t = t;
+    face.distance = touch.distance;
+    face.slope = (sample_field(field, on_rim(rim, rotation, t + within)) - touch.distance) / few;
+    if (face.slope > steepest) continue;
+    while (abs(beyond) < reach && goes_on(rim, field, rotation, face, beyond)) {
+      within = beyond;
+      beyond = 2.0f * beyond;
+    }
+    for (int turn = 0; turn < RIM_ROUNDS; ++turn) {
+      float middle = 0.5f * (within + beyond);
+      if (goes_on(rim, field, rotation, face, middle))
+        within = middle;
+      else
+        beyond = middle;
+    }
+    within -= 0.5f * float(side) * field.cell;
+    // At its end, the grid would tilt the direction of the face.
+    sample_field(field, on_rim(rim, rotation, t + 0.5f * within), touch.gradient);
+    t += within;
+    touch.point = on_rim(rim, rotation, t);
+    touch.distance = face.distance + face.slope * abs(within);
+    return true;
+  }
+  return false;
+}
+
+// Returns the feature (SphereContact.feature) of a contact around point i of the rim of plane k, or of one at the far
+// end of the face there.
+INLINE uint rim_feature(int i, bool far_end, uint k) {
+  return SPHERE_SIDE_B | ((uint(i + 0x400000) & 0x7fffffu) + (far_end ? 0x800000u : 0u) + k * SPHERE_PLANE);
 }

@@ -1,6 +1,7 @@
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
 #include "solver/free_turns.hpp"
+#include "solver/hard_contact_scenes.hpp"
 #include "solver/sphere/world.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 #include "solver/worst_contacts.hpp"
@@ -36,6 +37,18 @@ TEST(SphereGlSpin, IsLostToThePatchOfAContact) {
 
 TEST(SphereGlSwing, AboutARidgeIsLostToThePatchOfTheContact) {
   EXPECT_NEAR(swing_lost(Lab(sphere_gl.make()), sphere::Settings{}.patch_radius), 1.0, 0.05);
+}
+
+TEST(SphereGlRim, AFlatBarThatLeansOnItComesToRest) {
+  for (const double lean : {1.0, 1.2})
+    EXPECT_LT(time_to_rest_on_the_rim(Lab(sphere_gl.make()), {0.1, 0.04, 0.05, 0.2, lean}), 5.0) << lean;
+}
+
+// The same as in sphere_test, for the seeds that overlapped most.
+TEST(SphereGlImpacts, ABarIsStoppedWhereAWallAndTheFloorOfAChannelEnd) {
+  const PartModelPtr part = channel(0.05);
+  for (const std::uint64_t seed : {462, 674, 683, 491})
+    EXPECT_LT(overlap_beside_a_saddle(Lab(sphere_gl.make()), part, 0.05, seed), 0.012) << seed;
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device

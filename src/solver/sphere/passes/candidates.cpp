@@ -17,6 +17,13 @@ void candidates_of_rim(const World& world, std::size_t k, const Shape& shape, co
   const Plane& plane = world.planes[k];
   Rim rim;
   if (!find_rim(plane, world.wall_top, a.x, shape.radius, margin, samples.face_spacing, rim)) return;
+  const auto offer = [&](const Touch& touch, float t, std::uint32_t feature) {
+    const Vec3f p = a.x + rim.start + t * rim.along;
+    const auto within = [&](const Plane& other) { return other.wall && other.normal.dot(p) < other.offset - margin; };
+    if (touch.distance < margin && std::none_of(world.planes.begin(), world.planes.end(), within))
+      out.push_back(
+          {touch.point - touch.distance * touch.gradient, touch.point, touch.gradient, touch.distance, feature});
+  };
   float before = distance_at(rim, shape.field, a.rotation, rim.first - 1);
   float here = distance_at(rim, shape.field, a.rotation, rim.first);
   for (int i = rim.first; i <= rim.last; ++i) {
@@ -25,11 +32,9 @@ void candidates_of_rim(const World& world, std::size_t k, const Shape& shape, co
     Touch touch;
     if (may_touch_rim(rim, before, here, after, margin) &&
         touch_rim(rim, plane, shape.field, a.rotation, i, t, touch) && touch.distance < margin) {
-      const Vec3f p = a.x + rim.start + t * rim.along;
-      const auto within = [&](const Plane& other) { return other.wall && other.normal.dot(p) < other.offset - margin; };
-      if (std::none_of(world.planes.begin(), world.planes.end(), within))
-        out.push_back({touch.point - touch.distance * touch.gradient, touch.point, touch.gradient, touch.distance,
-                       rim_feature(i, static_cast<uint>(k))});
+      offer(touch, t, rim_feature(i, false, static_cast<uint>(k)));
+      if (touch_far_end(rim, shape.field, a.rotation, t, touch))
+        offer(touch, t, rim_feature(i, true, static_cast<uint>(k)));
     }
     before = here;
     here = after;
