@@ -12,9 +12,10 @@ namespace {
 using Finish = Pour::Finish;
 
 constexpr double calm_share = 0.4;  ///< part of the rest window after which parts that have not moved are calm
-constexpr double jolt = 0.02;     ///< s at the start of a check in which its forces are found and parts shift a little
-constexpr double creep = 1.0;     ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
-constexpr double patience = 2.0;  ///< s: time-out of stages whose stiff contacts damp rocking poorly
+constexpr double jolt = 0.02;  ///< s at the start of a check in which its forces are found and parts shift a little
+constexpr double creep = 1.0;  ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
+/// s: time-out of stages whose stiff contacts damp rocking poorly. Parts that alone have moved for this long rock.
+constexpr double patience = 2.0;
 constexpr int most_checks = 12;   ///< of the whole heap; those that still move in the last one are rechecked
 constexpr int most_rechecks = 8;  ///< who still moves in the last one is unstable
 /// s after the pour: from then on, checks are not repeated for the whole heap, since each of them makes other parts

@@ -80,7 +80,8 @@ INLINE bool goes_on(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, IN(FaceAlon
 }
 
 // Moves `touch`, the point of the part that is nearest to the rim at coordinate t (m), along the rim to the other end
-// of the face there. Returns false if the rim does not pass along a face, or only for a few cells of the field.
+// of the face there. Returns false if the rim does not pass along a face, or only for a few cells of the field. On a
+// curved face, the end is where the distance departs from the slope of the first cells.
 INLINE bool touch_far_end(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, INOUT(float) t, INOUT(Touch) touch) {
   const float steepest = 0.1f;  // slope of a face that may lie on the rim soon: 6 degrees
   float few = 4.0f * field.cell, reach = rim.step_size * float(rim.last - rim.first);
@@ -102,8 +103,8 @@ INLINE bool touch_far_end(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, INOUT
       else
         beyond = middle;
     }
+    // A little before the end, and with the direction of the face from its middle: at the end, the grid tilts it.
     within -= 0.5f * float(side) * field.cell;
-    // At its end, the grid would tilt the direction of the face.
     sample_field(field, on_rim(rim, rotation, t + 0.5f * within), touch.gradient);
     t += within;
     touch.point = on_rim(rim, rotation, t);

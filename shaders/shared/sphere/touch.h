@@ -446,7 +446,7 @@ INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) first, IN(Touch) 
     Touch deepest = touch;
     uint other = cross_edges(view.samples, edge, view.other, view.field, p.point, q.point, touch);
     bool crossed = other != NO_EDGE;
-    if (!crossed) other = 0u;
+    if (!crossed) other = 0u;  // an index that exists, where a compiler loads the edge before it is asked for
     vec3 along = q.point - p.point;
     float t = dot(touch.point - p.point, along) / dot(along, along);
     bool inside = t > END && t < 1.0f - END;

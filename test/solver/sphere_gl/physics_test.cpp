@@ -44,11 +44,14 @@ TEST(SphereGlRim, AFlatBarThatLeansOnItComesToRest) {
     EXPECT_LT(time_to_rest_on_the_rim(Lab(sphere_gl.make()), {0.1, 0.04, 0.05, 0.2, lean}), 5.0) << lean;
 }
 
-// The same as in sphere_test, for the seeds that overlapped most.
+// The same as in sphere_test, for three impacts that overlapped by 1.0 to 2.2 %.
 TEST(SphereGlImpacts, ABarIsStoppedWhereAWallAndTheFloorOfAChannelEnd) {
   const PartModelPtr part = channel(0.05);
-  for (const std::uint64_t seed : {462, 674, 683, 491})
-    EXPECT_LT(overlap_beside_a_saddle(Lab(sphere_gl.make()), part, 0.05, seed), 0.012) << seed;
+  for (const std::uint64_t seed : {462, 683, 491}) {
+    const double depth = overlap_beside_a_saddle(Lab(sphere_gl.make()), part, 0.05, seed);
+    EXPECT_GE(depth, 0.0) << "starts apart";
+    EXPECT_LT(depth, 0.005) << seed;
+  }
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device
